@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// The legacy engine: a small fixed-function scene in the manner of 2004.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::host {
+
+using Vec3 = std::array<float, 3>;
+
+struct Pillar { Vec3 base; float radius; float height; };      ///< metres; a round column with plinth and capital
+struct Crate { Vec3 centre; float size; float turn_degrees; }; ///< a wooden cube, turned about +y
+/// Four stone walls around an open rectangle, standing on `floor`; inner half extents in x and z.
+struct Basin { Vec3 centre; float half_x, half_z, height, wall; };
+
+/// What stands in the scene. Lengths in metres, +y up.
+struct EngineScene {
+    float floor_height = 0.0F;
+    float floor_half_extent = 12.0F;
+    float fog_density = 0.02F; ///< GL_EXP2
+    std::vector<Pillar> pillars;
+    std::vector<Crate> crates;
+    std::vector<Basin> basins;
+    Vec3 ambient{0.35F, 0.37F, 0.42F};
+};
+
+/// Draws with display lists, fixed-function lighting and fog, procedural textures and a sky dome, into whatever framebuffer
+/// is bound. All GL names are freed on destruction, with the context current.
+class LegacyEngine {
+  public:
+    [[nodiscard]] static Result<LegacyEngine> create(const EngineScene& scene);
+    LegacyEngine(LegacyEngine&&) noexcept;
+    LegacyEngine& operator=(LegacyEngine&&) noexcept;
+    ~LegacyEngine();
+
+    /// Clears colour and depth and draws one frame.
+    void draw(const SluiceCamera& camera, const SluiceSky& sky) const;
+
+  private:
+    struct Impl;
+    explicit LegacyEngine(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sluice::host

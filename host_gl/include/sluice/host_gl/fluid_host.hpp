@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// The host's half of a Sluice frame: capture the GBuffer, hand it over, composite what comes back.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "sluice/host_gl/plugin_library.hpp"
+#include "sluice/host_gl/screen.hpp"
+#include "sluice/negotiate.hpp"
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+#include "sluice/trace.hpp"
+
+namespace sluice::host {
+
+struct FluidHostConfig {
+    std::uint32_t width = 0, height = 0;
+    std::uint32_t image_sets = 2;
+    SluiceTimelineKind timeline = SLUICE_TIMELINE_AUTO;
+    std::uint32_t outputs = 0;  ///< FLUID_* roles beyond colour and depth, SLUICE_ROLE_BIT
+    SluiceFormat host_depth = SLUICE_FORMAT_NONE;
+    bool validation = false;
+    std::uint64_t wait_timeout_ns = 10'000'000'000ULL;
+    Trace* trace = nullptr;     ///< must outlive the FluidHost; nullptr: tracing off
+    std::function<void(SluiceLogLevel, std::string_view)> log;
+};
+
+/// Everything that changes from frame to frame.
+struct FrameInput {
+    SluiceCamera camera{};
+    SluiceSky sky{};
+    SluiceFluid fluid{};
+    std::uint32_t outputs = 0;
+    std::uint32_t flags = 0;  ///< SluiceFrameFlags
+};
+
+/// Owns one renderer, the imported images and the host's end of the timelines. Not thread-safe; every call needs the GL
+/// context of create() current. Every call leaves the GL state as it found it.
+class FluidHost {
+  public:
+    [[nodiscard]] static Result<std::unique_ptr<FluidHost>> create(const PluginLibrary& library,
+                                                                   const FluidHostConfig& config);
+    virtual ~FluidHost() = default;
+
+    [[nodiscard]] virtual const SluiceRendererInfo& info() const = 0;
+    [[nodiscard]] virtual Status resize(std::uint32_t width, std::uint32_t height) = 0;
+    [[nodiscard]] virtual Status setParticles(const SluiceParticles& particles) = 0;
+    [[nodiscard]] virtual Status setEnvironment(const SluiceEnvironment* environment) = 0;
+
+    /// Copies colour and depth of the screen into the next image set on the GPU, signals, and submits frame k.
+    /// On failure the host's frame is untouched and the next call starts a new frame.
+    [[nodiscard]] virtual Status submit(const Screen& screen, const FrameInput& input) = 0;
+    /// Waits for the frame submitted last and draws the fluid into the screen with the screen's own depth test, writing
+    /// depth. On failure the screen is untouched.
+    [[nodiscard]] virtual Status composite(const Screen& screen) = 0;
+    /// The number of the frame submitted last, 0 before the first.
+    [[nodiscard]] virtual std::uint64_t frame() const = 0;
+    /// Waits for that frame.
+    [[nodiscard]] virtual Result<SluiceFrameStats> stats(std::uint64_t frame) = 0;
+    /// The GL texture that holds `role` in the set used last, 0 if it is not shared.
+    [[nodiscard]] virtual std::uint32_t texture(SluiceImageRole role) const = 0;
+};
+
+/// Host services for calls that need no FluidHost (describe, probe_format); valid while the object lives and its GL context
+/// is current.
+class ProbeServices {
+  public:
+    explicit ProbeServices(std::function<void(SluiceLogLevel, std::string_view)> log);
+    ~ProbeServices();
+    ProbeServices(const ProbeServices&) = delete;
+    ProbeServices& operator=(const ProbeServices&) = delete;
+    [[nodiscard]] const SluiceHostServices& services() const;
+
+  private:
+    struct Impl;
+    std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace sluice::host

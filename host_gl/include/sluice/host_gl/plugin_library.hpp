@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Loading a renderer plugin.
+#pragma once
+
+#include <filesystem>
+
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::host {
+
+/// A loaded renderer library with a checked ABI. Move-only; unloading invalidates every renderer made from it.
+class PluginLibrary {
+  public:
+    /// Fails with a message that names the path and the remedy when the file is missing, is not a shared object, lacks the
+    /// entry symbol, serves another ABI major, or returns an incomplete table.
+    [[nodiscard]] static Result<PluginLibrary> load(const std::filesystem::path& path);
+    PluginLibrary(PluginLibrary&&) noexcept;
+    PluginLibrary& operator=(PluginLibrary&&) noexcept;
+    ~PluginLibrary();
+
+    [[nodiscard]] const SluiceRendererApi& api() const { return *api_; }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    PluginLibrary() = default;
+    void* handle_ = nullptr;
+    const SluiceRendererApi* api_ = nullptr;
+    std::filesystem::path path_;
+};
+
+}  // namespace sluice::host

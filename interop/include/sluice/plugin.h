@@ -1,0 +1,466 @@
+/* SPDX-License-Identifier: MIT
+ *
+ * sluice/plugin.h - the C ABI between a Sluice host and a renderer plugin.
+ *
+ * This header is the contract. It is C99, includes nothing of OpenGL or Vulkan, and is the only thing that the two
+ * sides share at run time.
+ *
+ * THE SHAPE OF IT
+ *   A renderer is a shared library that exports one symbol, SLUICE_RENDERER_ENTRY_SYMBOL. The host calls it with the
+ *   ABI version that it was built against and gets a table of functions, or NULL if the renderer cannot serve it.
+ *   The renderer allocates every shared image (OpenGL can import memory but not export it) and gives each one to the
+ *   host through SluiceHostServices::share_image. The two then take turns, ordered by two 64-bit counters.
+ *
+ * GROWTH
+ *   Every struct begins with `struct_size`, set by the side that fills it to its own sizeof. A reader uses a field only
+ *   if struct_size covers it and treats a missing one as zero. Fields are only ever appended within one ABI major.
+ *   Major differs: refuse. Minor differs: both sides use the fields that both know.
+ *
+ * THREADS
+ *   All renderer functions are called on the thread that owns the host's GL context, with that context current, because
+ *   they may call back into host services that issue GL commands. The exceptions, callable from any thread at any time
+ *   between create and destroy, are timeline_signal, timeline_wait and timeline_value.
+ *   A renderer may call SluiceHostServices::log and ::trace from any thread; share_image, retire_image and canary only
+ *   from inside create, resize, destroy or probe_format, on the calling thread.
+ *
+ * OWNERSHIP
+ *   - Pointers given to a function are valid for that call only, unless stated otherwise.
+ *   - A file descriptor passes to the receiver only when the call returns SLUICE_OK; on any other result the caller
+ *     still owns it and must close it. This holds in both directions.
+ *   - A shared image is held by exactly one side at a time; docs/protocol.md has the table of states and values.
+ *
+ * COORDINATES AND UNITS
+ *   World and eye space are right-handed, in metres; eye space looks down -z, +y is up. Matrices are column-major and
+ *   multiply column vectors. Projection follows OpenGL: clip z in [-w, w], NDC y up.
+ *   Texel (0,0) of every shared image is the BOTTOM left of the picture, as in OpenGL. (A Vulkan viewport of positive
+ *   height with an OpenGL projection matrix writes exactly that.) Colours in HOST_COLOUR and FLUID_COLOUR are
+ *   sRGB-encoded values in non-sRGB formats, as an engine of 2004 keeps them; all light quantities are linear.
+ *
+ * ERRORS
+ *   No function aborts, throws across the boundary or prints. Failures return a negative SluiceResult and, where there
+ *   is a SluiceError parameter, a message that names the thing, the value and the remedy.
+ */
+#ifndef SLUICE_PLUGIN_H
+#define SLUICE_PLUGIN_H
+
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define SLUICE_ABI_MAJOR 1u
+#define SLUICE_ABI_MINOR 0u
+#define SLUICE_MAKE_ABI(major, minor) (((uint32_t)(major) << 16) | (uint32_t)(minor))
+#define SLUICE_ABI_VERSION SLUICE_MAKE_ABI(SLUICE_ABI_MAJOR, SLUICE_ABI_MINOR)
+#define SLUICE_RENDERER_ENTRY_SYMBOL "sluice_renderer_entry"
+#define SLUICE_UUID_SIZE 16u
+#define SLUICE_MAX_DEVICE_UUIDS 4u
+#define SLUICE_MAX_IMAGE_SETS 4u
+#define SLUICE_MAX_PASSES 32u
+
+/* Results. Zero and positive values are not failures. */
+typedef enum SluiceResult {
+    SLUICE_OK = 0,
+    SLUICE_NOT_READY = 1,               /* poll: that frame has not finished yet */
+    SLUICE_TIMEOUT = 2,                 /* timeline_wait: the deadline passed; nothing was lost, wait again or give up */
+    SLUICE_ERROR_INVALID_ARGUMENT = -1, /* the caller broke this contract */
+    SLUICE_ERROR_ABI_MISMATCH = -2,
+    SLUICE_ERROR_UNSUPPORTED = -3,      /* this device or driver lacks something; the message says what */
+    SLUICE_ERROR_DEVICE_MISMATCH = -4,  /* no Vulkan device has the UUIDs of the GL context */
+    SLUICE_ERROR_OUT_OF_MEMORY = -5,
+    SLUICE_ERROR_DEVICE_LOST = -6,      /* destroy and create again */
+    SLUICE_ERROR_CANARY = -7,           /* a shared image did not carry its contents across; see the message */
+    SLUICE_ERROR_IMPORT = -8,           /* the host could not import a memory object */
+    SLUICE_ERROR_INTERNAL = -9
+} SluiceResult;
+
+/* One failure, told to a person. message is NUL-terminated: what failed, the value, the remedy. */
+typedef struct SluiceError {
+    uint32_t struct_size;
+    int32_t code; /* SluiceResult */
+    char message[512];
+} SluiceError;
+
+/* Formats that both APIs can name; sluice/format.hpp holds the table of what each is on either side. Values are ABI. */
+typedef enum SluiceFormat {
+    SLUICE_FORMAT_NONE = 0,
+    SLUICE_FORMAT_R8 = 1,
+    SLUICE_FORMAT_RGBA8 = 2,
+    SLUICE_FORMAT_SRGB8_A8 = 3,
+    SLUICE_FORMAT_RGB10_A2 = 4,
+    SLUICE_FORMAT_R16F = 5,
+    SLUICE_FORMAT_RG16F = 6,
+    SLUICE_FORMAT_RGBA16F = 7,
+    SLUICE_FORMAT_R32F = 8,
+    SLUICE_FORMAT_RG32F = 9,
+    SLUICE_FORMAT_RGBA32F = 10,
+    SLUICE_FORMAT_R32UI = 11,
+    SLUICE_FORMAT_D32F = 12,
+    SLUICE_FORMAT_D24S8 = 13,
+    SLUICE_FORMAT_COUNT = 14
+} SluiceFormat;
+
+/* What a shared image is for. */
+typedef enum SluiceImageRole {
+    SLUICE_IMAGE_HOST_COLOUR = 0,     /* host writes: its frame before fluid, sRGB-encoded, for refraction */
+    SLUICE_IMAGE_HOST_DEPTH = 1,      /* host writes: its depth, in SluiceRendererInfo::host_depth_encoding */
+    SLUICE_IMAGE_FLUID_COLOUR = 2,    /* renderer writes: sRGB-encoded colour, not premultiplied; alpha = coverage */
+    SLUICE_IMAGE_FLUID_DEPTH = 3,     /* renderer writes: 32-bit float window depth in [0,1]; 1 where there is no fluid */
+    SLUICE_IMAGE_FLUID_NORMAL = 4,    /* renderer writes: xyz = unit eye-space normal, w = 1 on fluid and 0 elsewhere */
+    SLUICE_IMAGE_FLUID_THICKNESS = 5, /* renderer writes: metres of fluid along the view ray */
+    SLUICE_IMAGE_CANARY = 6,          /* short-lived, for proving a format; never part of a frame */
+    SLUICE_IMAGE_ROLE_COUNT = 7
+} SluiceImageRole;
+
+#define SLUICE_ROLE_BIT(role) (1u << (uint32_t)(role))
+
+typedef enum SluiceDepthEncoding {
+    SLUICE_DEPTH_WINDOW = 0, /* OpenGL window depth in [0,1], default glDepthRange */
+    SLUICE_DEPTH_LINEAR = 1  /* metres in front of the eye, along -z; +infinity where nothing was drawn */
+} SluiceDepthEncoding;
+
+/* How the two sides order their work. All have one meaning; docs/protocol.md. */
+typedef enum SluiceTimelineKind {
+    SLUICE_TIMELINE_AUTO = 0,           /* request only: the best that the probe proves */
+    SLUICE_TIMELINE_NATIVE = 1,         /* GL_NV_timeline_semaphore with an exported Vulkan timeline semaphore */
+    SLUICE_TIMELINE_BINARY = 2,         /* GL_EXT_semaphore_fd: one exported binary semaphore per value */
+    SLUICE_TIMELINE_BRIDGED = 3,        /* GL fence + client wait + vkSignalSemaphore; vkWaitSemaphores on the way back */
+    SLUICE_TIMELINE_FINISH = 4,         /* glFinish and an idle queue: the baseline to compare with */
+    SLUICE_TIMELINE_UNSYNCHRONISED = 5, /* request only, never chosen: no waits at all, to show that tests notice */
+    SLUICE_TIMELINE_KIND_COUNT = 6
+} SluiceTimelineKind;
+
+typedef enum SluiceDirection {
+    SLUICE_HOST_TO_RENDERER = 0, /* frame k: 2k-1 = GBuffer written, 2k = fluid images read by the composite */
+    SLUICE_RENDERER_TO_HOST = 1  /* frame k: k = fluid images written and GBuffer no longer read */
+} SluiceDirection;
+
+typedef enum SluiceLogLevel {
+    SLUICE_LOG_DEBUG = 0,
+    SLUICE_LOG_INFO = 1,
+    SLUICE_LOG_WARNING = 2,
+    SLUICE_LOG_ERROR = 3
+} SluiceLogLevel;
+
+/* ------------------------------------------------------------------------------------------------------ trace -- */
+
+typedef enum SluiceTraceKind {
+    SLUICE_TRACE_SIGNAL = 0,  /* value = timeline value made visible */
+    SLUICE_TRACE_WAIT = 1,    /* value = timeline value waited for; duration = time blocked, 0 for a GPU-side wait */
+    SLUICE_TRACE_ACQUIRE = 2, /* a side takes a shared image; bytes = its size */
+    SLUICE_TRACE_RELEASE = 3, /* a side gives a shared image up; bytes = its size */
+    SLUICE_TRACE_SUBMIT = 4,
+    SLUICE_TRACE_PASS = 5,    /* one GPU pass; bytes = bytes it touched at least once (compulsory traffic) */
+    SLUICE_TRACE_CPU_COPY = 6,/* bytes moved by the CPU between its memory and an image or buffer; never in a frame loop
+                                 for a shared image */
+    SLUICE_TRACE_MARK = 7,
+    SLUICE_TRACE_KIND_COUNT = 8
+} SluiceTraceKind;
+
+typedef enum SluiceTrack {
+    SLUICE_TRACK_HOST_CPU = 0,
+    SLUICE_TRACK_HOST_GL = 1,
+    SLUICE_TRACK_BRIDGE = 2,
+    SLUICE_TRACK_RENDERER_CPU = 3,
+    SLUICE_TRACK_RENDERER_QUEUE = 4,
+    SLUICE_TRACK_COUNT = 5
+} SluiceTrack;
+
+/* One event. Times are CLOCK_MONOTONIC nanoseconds. name is copied by the receiver (truncated to 31 characters). */
+typedef struct SluiceTraceEvent {
+    uint32_t struct_size;
+    uint32_t kind;  /* SluiceTraceKind */
+    uint32_t track; /* SluiceTrack */
+    uint32_t direction; /* SluiceDirection, for SIGNAL and WAIT */
+    uint64_t begin_ns;
+    uint64_t duration_ns;
+    uint64_t frame;
+    uint64_t value;
+    uint64_t bytes;
+    const char* name;
+} SluiceTraceEvent;
+
+/* ---------------------------------------------------------------------------------------------- shared images -- */
+
+/* One image that the renderer has allocated and exported: dedicated allocation, image bound at offset 0, optimal tiling,
+ * one mip, one layer, one sample. */
+typedef struct SluiceImageExport {
+    uint32_t struct_size;
+    uint32_t role;      /* SluiceImageRole */
+    uint32_t image_set; /* which set of the ring, from 0 */
+    uint32_t format;    /* SluiceFormat */
+    uint32_t width, height;
+    uint64_t allocation_size; /* the VkMemoryAllocateInfo size, in bytes */
+    int32_t fd;               /* opaque fd; becomes the host's on SLUICE_OK */
+    uint32_t dedicated;       /* 1: GL_DEDICATED_MEMORY_OBJECT_EXT must be set before the import */
+} SluiceImageExport;
+
+/* What the host offers. `user` is passed back as the first argument of each function. */
+typedef struct SluiceHostServices {
+    uint32_t struct_size;
+    uint32_t abi_version;
+    void* user;
+
+    /* Any thread. message is one line without a newline. */
+    void (*log)(void* user, int32_t level, const char* message);
+
+    /* Any thread. NULL when tracing is off: then the renderer takes no timestamps. */
+    void (*trace)(void* user, const SluiceTraceEvent* event);
+
+    /* The allocator of shared images, seen from the renderer: it brings exportable memory, the host binds it to a
+     * texture and keeps it until retire_image. A second export for the same (role, image_set) replaces the first. */
+    SluiceResult (*share_image)(void* user, const SluiceImageExport* image, SluiceError* error);
+    void (*retire_image)(void* user, uint32_t role, uint32_t image_set);
+
+    /* Prove a format. The renderer has filled the image with sluice::canaryPattern(format, seed) and finished; the host
+     * imports it, compares every texel, overwrites it with canaryPattern(format, seed + 1), finishes and lets go of it.
+     * SLUICE_ERROR_CANARY if a texel differed. The renderer then checks the host's pattern. */
+    SluiceResult (*canary)(void* user, const SluiceImageExport* image, uint32_t seed, SluiceError* error);
+} SluiceHostServices;
+
+/* What the GL side of this machine can do, as queried; the input of sluice::negotiate. */
+typedef struct SluiceHostCapabilities {
+    uint32_t struct_size;
+    uint32_t device_uuid_count;
+    uint8_t device_uuids[SLUICE_MAX_DEVICE_UUIDS][SLUICE_UUID_SIZE];
+    uint8_t driver_uuid[SLUICE_UUID_SIZE];
+    uint32_t has_memory_object;      /* GL_EXT_memory_object */
+    uint32_t has_memory_object_fd;   /* GL_EXT_memory_object_fd */
+    uint32_t has_semaphore;          /* GL_EXT_semaphore */
+    uint32_t has_semaphore_fd;       /* GL_EXT_semaphore_fd */
+    uint32_t has_timeline_semaphore; /* GL_NV_timeline_semaphore */
+    uint32_t has_sync;               /* GL_ARB_sync or GL 3.2 */
+    uint32_t has_framebuffer_object; /* GL_ARB_framebuffer_object or GL 3.0 */
+    uint32_t texture_formats;        /* bit per SluiceFormat: usable as a texture */
+    uint32_t attachment_formats;     /* bit per SluiceFormat: framebuffer complete when attached */
+    char vendor[64], renderer[128], version[64];
+} SluiceHostCapabilities;
+
+/* The same for the Vulkan device. */
+typedef struct SluiceRendererCapabilities {
+    uint32_t struct_size;
+    uint32_t api_version; /* VK_MAKE_API_VERSION */
+    uint8_t device_uuid[SLUICE_UUID_SIZE];
+    uint8_t driver_uuid[SLUICE_UUID_SIZE];
+    uint32_t has_external_memory_fd;
+    uint32_t has_timeline_semaphore;
+    uint32_t exports_timeline_fd; /* timeline semaphores as OPAQUE_FD */
+    uint32_t exports_binary_fd;   /* binary semaphores as OPAQUE_FD */
+    uint32_t queue_families, queues;
+    uint32_t exportable_formats;      /* bit per SluiceFormat: exportable with the usages that frames need */
+    uint32_t storage_formats;         /* bit per SluiceFormat: usable as a storage image */
+    uint32_t blendable_formats;       /* bit per SluiceFormat: colour attachment with blending */
+    uint32_t dedicated_required;      /* bit per SluiceFormat */
+    char device_name[128], driver_name[64], driver_info[128];
+} SluiceRendererCapabilities;
+
+/* ------------------------------------------------------------------------------------------------------ scene -- */
+
+typedef struct SluiceCamera {
+    float view[16];       /* world to eye */
+    float projection[16]; /* eye to clip, OpenGL convention, perspective and symmetric or not */
+    float near_plane, far_plane; /* metres, 0 < near < far */
+} SluiceCamera;
+
+/* One distant light and the procedural sky, all linear. For a unit direction d (world):
+ *   base  = d.y >= 0 ? mix(horizon, zenith, sqrt(d.y)) : mix(horizon, ground, min(1, -4 d.y))
+ *   sky(d) = base + sun_radiance * smoothstep(cos 2.5 deg, cos 1.0 deg, dot(d, to_sun))
+ * The host draws its sky with the same formula, so that reflections agree with it. */
+typedef struct SluiceSky {
+    float zenith[3], horizon[3], ground[3];
+    float to_sun[3]; /* unit, world */
+    float sun_radiance[3];
+} SluiceSky;
+
+typedef enum SluiceFilterKind {
+    SLUICE_FILTER_NONE = 0,
+    SLUICE_FILTER_NARROW_RANGE = 1 /* Truong & Yuksel 2018 */
+} SluiceFilterKind;
+
+typedef enum SluiceView {
+    SLUICE_VIEW_FLUID = 0,     /* the shaded fluid */
+    SLUICE_VIEW_DEPTH = 1,     /* debug views: the named buffer as colours, coverage 1 on fluid */
+    SLUICE_VIEW_NORMAL = 2,
+    SLUICE_VIEW_THICKNESS = 3,
+    SLUICE_VIEW_ECHO = 4       /* FLUID_COLOUR = HOST_COLOUR and FLUID_DEPTH = HOST_DEPTH, texel for texel: checks the
+                                  hand-off without any fluid */
+} SluiceView;
+
+/* How the fluid looks. Lengths "in radii" are multiples of the particle radius. */
+typedef struct SluiceFluid {
+    float absorption[3];       /* per metre, linear RGB: Beer's law transmits exp(-absorption * thickness) */
+    float scatter_colour[3];   /* linear RGB in-scattered in the limit of infinite thickness */
+    float index_of_refraction; /* 1.33 for water, > 1 */
+    float specular_power;      /* Blinn-Phong exponent of the sun's highlight */
+    float splat_radius;        /* in radii; 1.5 */
+    uint32_t filter;           /* SluiceFilterKind */
+    uint32_t filter_iterations;
+    float filter_range;        /* in radii: half-width delta of the narrow range */
+    float filter_clamp;        /* in radii: mu, how far below the centre a farther sample is clamped */
+    float filter_sigma;        /* in radii: world-space standard deviation of the spatial weight */
+    uint32_t filter_max_pixels;/* cap of the filter's half-width in pixels */
+    float thickness_scale;     /* resolution of the thickness pass: 1, 0.5 or 0.25 */
+    float thickness_blur;      /* in radii: standard deviation of the Gaussian; 0 turns the blur off */
+    uint32_t refraction;       /* 0: the host's colour is not sampled */
+    uint32_t reflection;       /* 0: no environment is sampled */
+    uint32_t view;             /* SluiceView */
+} SluiceFluid;
+
+/* A particle set on the CPU. Arrays are tightly packed float triples in world metres; velocity and colour may be NULL. */
+typedef struct SluiceParticles {
+    uint32_t struct_size;
+    uint32_t count;
+    float radius; /* metres, > 0 */
+    const float* position;
+    const float* velocity; /* metres per second */
+    const float* colour;   /* linear RGB in [0,1] */
+} SluiceParticles;
+
+/* A latitude-longitude environment map: linear RGB, rows from the zenith down, column 0 looks along -z and columns turn
+ * towards +x. pixels is read during the call only. */
+typedef struct SluiceEnvironment {
+    uint32_t struct_size;
+    uint32_t width, height;
+    const float* pixels;
+} SluiceEnvironment;
+
+/* What the scene asks of the renderer; the input of the pass plan. */
+typedef struct SluiceSceneNeeds {
+    uint32_t struct_size;
+    uint32_t width, height;
+    uint32_t particle_count;
+    uint32_t has_environment_map;
+    uint32_t outputs; /* SLUICE_ROLE_BIT of each FLUID_* image that the host reads; colour and depth are always made */
+    SluiceFluid fluid;
+} SluiceSceneNeeds;
+
+typedef enum SluiceFrameFlags {
+    SLUICE_FRAME_SKIP_WAIT = 1 /* fault for tests: do not wait for wait_value */
+} SluiceFrameFlags;
+
+/* One frame. Frames are numbered from 1 without gaps. */
+typedef struct SluiceFrame {
+    uint32_t struct_size;
+    uint32_t image_set;    /* (frame - 1) % image_sets */
+    uint64_t frame;        /* k */
+    uint64_t wait_value;   /* host-to-renderer value to wait for: 2k-1 */
+    uint64_t signal_value; /* renderer-to-host value to signal: k */
+    uint32_t outputs;      /* as in SluiceSceneNeeds */
+    uint32_t flags;        /* SluiceFrameFlags */
+    SluiceCamera camera;
+    SluiceSky sky;
+    SluiceFluid fluid;
+} SluiceFrame;
+
+/* ------------------------------------------------------------------------------------------------- statistics -- */
+
+typedef struct SluicePassStats {
+    char name[32];
+    uint64_t nanoseconds; /* GPU time between timestamps; 0 if the device has none */
+    uint64_t elements;    /* particles for splats, pixels for image passes */
+    uint64_t bytes;       /* compulsory traffic: each input read once, each output written once */
+    uint32_t is_particles; /* 1: elements are particles, 0: pixels */
+    uint32_t dispatches;  /* draws or dispatches that the pass recorded */
+} SluicePassStats;
+
+typedef struct SluiceFrameStats {
+    uint32_t struct_size;
+    uint32_t pass_count;
+    uint64_t frame;
+    SluicePassStats passes[SLUICE_MAX_PASSES];
+    uint64_t cpu_copy_bytes;   /* bytes of shared images that the CPU moved during this frame; 0 by contract */
+    uint64_t upload_bytes;     /* particle data uploaded for this frame */
+    uint32_t validation_messages; /* since create, when validation is on */
+} SluiceFrameStats;
+
+typedef struct SluiceCreateInfo {
+    uint32_t struct_size;
+    uint32_t width, height; /* of the shared images; 1..16384 */
+    uint32_t image_sets;    /* 1..SLUICE_MAX_IMAGE_SETS */
+    uint32_t timeline;      /* SluiceTimelineKind requested */
+    uint32_t validation;    /* 1: enable VK_LAYER_KHRONOS_validation with synchronisation validation */
+    uint32_t outputs;       /* FLUID_* images to share; see SluiceSceneNeeds::outputs */
+    uint32_t host_depth_format; /* SluiceFormat to force for HOST_DEPTH, or SLUICE_FORMAT_NONE to negotiate */
+    SluiceHostCapabilities host;
+} SluiceCreateInfo;
+
+/* What create settled on. */
+typedef struct SluiceRendererInfo {
+    uint32_t struct_size;
+    uint32_t timeline;                             /* SluiceTimelineKind in use */
+    uint32_t formats[SLUICE_IMAGE_ROLE_COUNT];     /* SluiceFormat per role, NONE where not shared */
+    uint32_t host_depth_encoding;                  /* SluiceDepthEncoding */
+    uint32_t image_sets, width, height;
+    SluiceRendererCapabilities capabilities;
+} SluiceRendererInfo;
+
+/* --------------------------------------------------------------------------------------------------- renderer -- */
+
+typedef struct SluiceRenderer SluiceRenderer;
+
+/* Receives one line of an explanation; the text is valid during the call. */
+typedef void (*SluiceLineSink)(void* user, const char* line);
+
+typedef struct SluiceRendererApi {
+    uint32_t struct_size;
+    uint32_t abi_version;
+    const char* name;    /* lives as long as the library is loaded, as does version */
+    const char* version;
+
+    /* Capabilities of the device that create would pick for these UUIDs. Creates nothing that outlives the call. */
+    SluiceResult (*describe)(const SluiceHostServices* host, const SluiceCreateInfo* info,
+                             SluiceRendererCapabilities* capabilities, SluiceError* error);
+
+    /* The pass plan for these needs: one line per pass kept or left out, with the reason. Needs no device. */
+    SluiceResult (*explain)(const SluiceSceneNeeds* needs, SluiceLineSink sink, void* sink_user, SluiceError* error);
+
+    /* Create on the device with the host's UUIDs; prove the formats (canary), choose the timeline, share the images.
+     * `host` must outlive the renderer. On failure *renderer is NULL and nothing is left behind. */
+    SluiceResult (*create)(const SluiceHostServices* host, const SluiceCreateInfo* info, SluiceRenderer** renderer,
+                           SluiceError* error);
+
+    SluiceResult (*info)(SluiceRenderer* renderer, SluiceRendererInfo* info);
+
+    /* Waits until no submitted frame is running, then replaces every shared image. On failure the renderer has no images
+     * and accepts only resize and destroy. */
+    SluiceResult (*resize)(SluiceRenderer* renderer, uint32_t width, uint32_t height, SluiceError* error);
+
+    /* Replace the particles for the frames submitted from now on; data is copied during the call. */
+    SluiceResult (*set_particles)(SluiceRenderer* renderer, const SluiceParticles* particles, SluiceError* error);
+
+    /* Replace the environment map; NULL returns to the procedural sky. */
+    SluiceResult (*set_environment)(SluiceRenderer* renderer, const SluiceEnvironment* environment, SluiceError* error);
+
+    /* Record and submit frame k. Returns without waiting for the device (FINISH excepted). On failure the fluid images
+     * of that set are undefined and signal_value is never signalled by this frame: the host composes without fluid. */
+    SluiceResult (*submit_frame)(SluiceRenderer* renderer, const SluiceFrame* frame, SluiceError* error);
+
+    /* Statistics of a submitted frame; SLUICE_NOT_READY until it finished. Kept for the last image_sets frames. */
+    SluiceResult (*poll)(SluiceRenderer* renderer, uint64_t frame, SluiceFrameStats* stats);
+
+    /* Any thread. The CPU ends of the timelines, used by BRIDGED and FINISH. */
+    SluiceResult (*timeline_signal)(SluiceRenderer* renderer, uint64_t value); /* host-to-renderer, increasing */
+    SluiceResult (*timeline_wait)(SluiceRenderer* renderer, uint64_t value, uint64_t timeout_ns); /* renderer-to-host */
+    SluiceResult (*timeline_value)(SluiceRenderer* renderer, uint32_t direction, uint64_t* value);
+
+    /* NATIVE: one fd per direction, value ignored. BINARY: one fd per (direction, value); for HOST_TO_RENDERER it must be
+     * asked for before submit_frame waits for that value. The fd becomes the caller's. */
+    SluiceResult (*timeline_export)(SluiceRenderer* renderer, uint32_t direction, uint64_t value, int32_t* fd,
+                                    SluiceError* error);
+
+    /* Canary round trip of one format at the given size, both directions; needs no renderer. */
+    SluiceResult (*probe_format)(const SluiceHostServices* host, const SluiceCreateInfo* info, uint32_t format,
+                                 uint32_t width, uint32_t height, SluiceError* error);
+
+    /* Waits for the device, retires every image, frees everything. NULL is ignored. */
+    void (*destroy)(SluiceRenderer* renderer);
+} SluiceRendererApi;
+
+/* The one exported symbol. Returns NULL when abi_version's major is not served. */
+typedef const SluiceRendererApi* (*SluiceRendererEntry)(uint32_t abi_version);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
