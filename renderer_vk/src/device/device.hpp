@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+// One Vulkan device with one queue: the renderer's root object. Everything else refers to it and dies before it.
+#pragma once
+
+#include <volk.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+
+#include "device/functions.hpp"
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::vk {
+
+struct MessageSink;
+
+/// What the device must be and who hears of it.
+struct DeviceRequest {
+    SluiceHostCapabilities host{};                 ///< UUIDs to match
+    bool match_host = true;                        ///< false: take the first device that can run frames (tests only)
+    bool validation = false;                       ///< the Khronos layer with synchronisation validation
+    const SluiceHostServices* services = nullptr;  ///< log; may be null; must outlive the device
+};
+
+/// Optional features that were found and enabled.
+struct DeviceFeatures {
+    bool storage_read_without_format = false;
+    bool storage_write_without_format = false;
+    bool storage_extended_formats = false;  ///< r16f and friends as storage images
+    bool scalar_block_layout = false;
+    bool push_descriptor = false;           ///< VK_KHR_push_descriptor
+    bool calibrated_timestamps = false;     ///< device and CLOCK_MONOTONIC
+};
+
+/// Owns the instance, the device and its single graphics+compute queue. Pinned in memory: keep it by unique_ptr and pass
+/// `const Device&`. Call device functions through `fn`: `device.fn.vkCmdDispatch(commands, x, y, z)`.
+/// The queue is used on the thread that owns the renderer; `fn` may be used from any thread within Vulkan's own rules.
+/// Enabled always: Vulkan 1.3 with synchronization2, dynamicRendering, maintenance4, timelineSemaphore, hostQueryReset.
+struct Device {
+    static Result<std::unique_ptr<Device>> create(const DeviceRequest& request);
+
+    Device() = default;
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+    /// Waits until the device is idle. Every object made from it must be gone.
+    ~Device();
+
+    VkInstance instance = VK_NULL_HANDLE;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkDevice handle = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::uint32_t queue_family = 0;
+    std::uint32_t timestamp_valid_bits = 0;  ///< of the queue family; 0: no timestamps
+
+    InstanceFunctions instance_fn{};
+    VolkDeviceTable fn{};
+
+    VkPhysicalDeviceProperties properties{};
+    VkPhysicalDeviceMemoryProperties memory{};
+    DeviceFeatures features{};
+    SluiceRendererCapabilities capabilities{};
+
+    /// Index of a memory type of `type_bits` with all of `wanted`, preferring one that also has all of `preferred`.
+    [[nodiscard]] Result<std::uint32_t> memoryType(std::uint32_t type_bits, VkMemoryPropertyFlags wanted,
+                                                   VkMemoryPropertyFlags preferred = 0) const;
+
+    /// Names an object for validation messages and captures; free when VK_EXT_debug_utils is off.
+    void name(VkObjectType type, std::uint64_t object, const char* text) const;
+    template <typename Handle>
+    void name(VkObjectType type, Handle object, const char* text) const {
+        name(type, reinterpret_cast<std::uint64_t>(object), text);
+    }
+
+    /// One line to the host's log, from any thread.
+    void log(SluiceLogLevel level, std::string_view message) const;
+
+    /// Warnings and errors of the validation layer since creation; 0 when validation is off.
+    [[nodiscard]] std::uint32_t validationMessages() const;
+
+    const SluiceHostServices* services = nullptr;
+    std::unique_ptr<MessageSink> messages;
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+};
+
+/// The name of a VkResult, "VK_ERROR_DEVICE_LOST".
+[[nodiscard]] std::string_view resultName(VkResult result);
+
+/// A failed call as an Error: DEVICE_LOST, OUT_OF_MEMORY or INTERNAL by `result`. `thing` names the call and its object.
+[[nodiscard]] Error vulkanError(VkResult result, std::string_view thing);
+
+}  // namespace sluice::vk

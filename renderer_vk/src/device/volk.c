@@ -1,0 +1,4 @@
+/* SPDX-License-Identifier: MIT */
+/* The one place where volk is compiled. */
+#define VOLK_IMPLEMENTATION
+#include <volk.h>
