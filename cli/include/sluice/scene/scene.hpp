@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// A scene: which particles, seen from where, in which light and in which engine scene. docs/cli.md has the JSON schema.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "sluice/host_gl/engine.hpp"
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::scene {
+
+using Vec3 = std::array<float, 3>;
+
+/// Frames first..last, both included.
+struct FrameRange {
+    std::int64_t first = 1, last = 1;
+    [[nodiscard]] std::int64_t count() const { return last - first + 1; }
+    bool operator==(const FrameRange&) const = default;
+};
+
+/// Picture size in pixels.
+struct Size {
+    std::uint32_t width = 1280, height = 720;
+    bool operator==(const Size&) const = default;
+};
+
+/// Largest width or height, as SluiceCreateInfo has it.
+inline constexpr std::uint32_t kMaxSize = 16384;
+inline constexpr std::int64_t kMaxFrame = 1'000'000'000;
+
+/// A particle file or numbered sequence; world position = scale * file position + translate.
+struct ParticleSource {
+    std::string path;      ///< pattern ("pool_####.pos") or one file; resolved against the scene file; empty: none given
+    float radius = 0.0F;   ///< metres, before scaling, for files that carry none; 0: such a file is an error
+    float scale = 1.0F;    ///< scales the radius too
+    Vec3 translate{};      ///< metres
+};
+
+/// The camera of every frame. Orbit turns position about the vertical axis through target.
+struct CameraPath {
+    Vec3 position{-4.0F, 4.0F, -3.0F};
+    Vec3 target{0.0F, 1.0F, 0.0F};
+    Vec3 up{0.0F, 1.0F, 0.0F};
+    float vertical_fov_degrees = 58.3F;
+    float near_plane = 0.1F, far_plane = 60.0F;  ///< metres
+    float orbit_degrees_per_frame = 0.0F;        ///< counted from the scene's first frame
+};
+
+/// The one place where the fluid's default look is written down.
+[[nodiscard]] SluiceFluid defaultFluid();
+/// The default daylight. to_sun is unit.
+[[nodiscard]] SluiceSky defaultSky();
+
+struct Scene {
+    ParticleSource particles;
+    CameraPath camera;
+    SluiceSky sky = defaultSky();
+    std::string environment;  ///< latitude-longitude image, resolved against the scene file; empty: the procedural sky
+    SluiceFluid fluid = defaultFluid();
+    host::EngineScene engine;
+    FrameRange frames;
+    Size size;
+};
+
+/// Pure. Reads JSON (comments allowed). An unknown key, a wrong type or a value out of range is an error that names the
+/// JSON pointer, the value, what was expected and, for a key, the nearest known one. `name` is used in messages.
+/// Paths are kept as written. Code of errors: SLUICE_ERROR_INVALID_ARGUMENT.
+[[nodiscard]] Result<Scene> parseScene(std::string_view text, const std::string& name);
+
+/// Every field as JSON; parseScene gives the same scene back.
+[[nodiscard]] std::string writeScene(const Scene& scene);
+
+/// Reads the file and resolves its relative paths against the folder that holds it.
+[[nodiscard]] Result<Scene> loadScene(const std::filesystem::path& path);
+
+/// The camera of `frame` for pictures of that size: right-handed look-at, symmetric OpenGL perspective.
+[[nodiscard]] SluiceCamera cameraAt(const Scene& scene, std::int64_t frame, Size size);
+
+}  // namespace sluice::scene

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+#include "sluice/scene/scene.hpp"
+
+namespace sluice::scene {
+
+SluiceFluid defaultFluid() {
+    SluiceFluid fluid{};
+    // Clear water takes red first (Pope & Fry 1997: 0.34, 0.057, 0.009 per metre at 650, 550, 450 nm). A pool of half a metre
+    // would look like glass with those, so this is several times as dense; tuned on samples/courtyard.json.
+    fluid.absorption[0] = 2.2F;
+    fluid.absorption[1] = 0.45F;
+    fluid.absorption[2] = 0.22F;
+    fluid.scatter_colour[0] = 0.01F;
+    fluid.scatter_colour[1] = 0.05F;
+    fluid.scatter_colour[2] = 0.07F;
+    fluid.index_of_refraction = 1.33F;
+    fluid.specular_power = 250.0F;
+    fluid.splat_radius = 1.5F;
+    fluid.filter = SLUICE_FILTER_NARROW_RANGE;
+    fluid.filter_iterations = 3;
+    fluid.filter_range = 10.0F;
+    fluid.filter_clamp = 1.0F;
+    fluid.filter_sigma = 1.5F;
+    fluid.filter_max_pixels = 64;
+    fluid.thickness_scale = 0.5F;
+    fluid.thickness_blur = 1.5F;
+    fluid.refraction = 1;
+    fluid.reflection = 1;
+    fluid.view = SLUICE_VIEW_FLUID;
+    return fluid;
+}
+
+SluiceSky defaultSky() {
+    SluiceSky sky{};
+    const Vec3 zenith{0.10F, 0.24F, 0.58F};
+    const Vec3 horizon{0.60F, 0.72F, 0.85F};
+    const Vec3 ground{0.20F, 0.18F, 0.15F};
+    const Vec3 to_sun{0.6F, 0.6244998F, 0.5F};  // across the pool from the default camera, so that the water glitters
+    const Vec3 sun{12.0F, 11.0F, 9.0F};
+    for (std::size_t i = 0; i < 3; ++i) {
+        sky.zenith[i] = zenith[i];
+        sky.horizon[i] = horizon[i];
+        sky.ground[i] = ground[i];
+        sky.to_sun[i] = to_sun[i];
+        sky.sun_radiance[i] = sun[i];
+    }
+    return sky;
+}
+
+}  // namespace sluice::scene

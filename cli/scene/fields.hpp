@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Every key of a scene file, said once: the reader and the writer are both visitors of these functions.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "limits.hpp"
+#include "sluice/scene/scene.hpp"
+
+namespace sluice::scene {
+
+using Choice = std::pair<std::string_view, std::uint32_t>;
+
+inline constexpr std::array<Choice, 2> kFilters{
+    {{"none", SLUICE_FILTER_NONE}, {"narrow_range", SLUICE_FILTER_NARROW_RANGE}}};
+inline constexpr std::array<Choice, 5> kViews{{{"fluid", SLUICE_VIEW_FLUID},
+                                               {"depth", SLUICE_VIEW_DEPTH},
+                                               {"normal", SLUICE_VIEW_NORMAL},
+                                               {"thickness", SLUICE_VIEW_THICKNESS},
+                                               {"echo", SLUICE_VIEW_ECHO}}};
+
+template <typename Visitor>
+void visitParticles(Visitor& v, ParticleSource& p) {
+    v.text("path", p.path);
+    v.number("radius", p.radius, kLength);
+    v.object("transform", [&p](auto& t) {
+        t.number("scale", p.scale, kPositiveLength);
+        t.numbers("translate", p.translate, kAnyLength);
+    });
+}
+
+template <typename Visitor>
+void visitCamera(Visitor& v, CameraPath& c) {
+    v.numbers("position", c.position, kAnyLength);
+    v.numbers("target", c.target, kAnyLength);
+    v.numbers("up", c.up, kAnyLength);
+    v.number("vertical_fov_degrees", c.vertical_fov_degrees, Range{1.0, 170.0});
+    v.number("near", c.near_plane, kPositiveLength);
+    v.number("far", c.far_plane, kPositiveLength);
+    v.number("orbit_degrees_per_frame", c.orbit_degrees_per_frame, kDegrees);
+}
+
+template <typename Visitor>
+void visitSky(Visitor& v, SluiceSky& s) {
+    v.numbers("zenith", s.zenith, kLight);
+    v.numbers("horizon", s.horizon, kLight);
+    v.numbers("ground", s.ground, kLight);
+    v.numbers("to_sun", s.to_sun, Range{-kWorld, kWorld});
+    v.numbers("sun_radiance", s.sun_radiance, kLight);
+}
+
+template <typename Visitor>
+void visitFluid(Visitor& v, SluiceFluid& f) {
+    v.numbers("absorption", f.absorption, Range{0.0, 1.0e6});
+    v.numbers("scatter_colour", f.scatter_colour, kLight);
+    v.number("index_of_refraction", f.index_of_refraction, Range{1.0, 4.0, true});
+    v.number("specular_power", f.specular_power, Range{1.0, 1.0e5});
+    v.number("splat_radius", f.splat_radius, Range{0.1, 10.0});
+    v.choice("filter", f.filter, kFilters);
+    v.integer("filter_iterations", f.filter_iterations, 0, 64);
+    v.number("filter_range", f.filter_range, Range{0.0, 1000.0, true});
+    v.number("filter_clamp", f.filter_clamp, Range{0.0, 1000.0, true});
+    v.number("filter_sigma", f.filter_sigma, Range{0.0, 100.0, true});
+    v.integer("filter_max_pixels", f.filter_max_pixels, 1, 1024);
+    v.numberOf("thickness_scale", f.thickness_scale, std::array{1.0F, 0.5F, 0.25F});
+    v.number("thickness_blur", f.thickness_blur, Range{0.0, 100.0});
+    v.flag("refraction", f.refraction);
+    v.flag("reflection", f.reflection);
+    v.choice("view", f.view, kViews);
+}
+
+template <typename Visitor>
+void visitEngine(Visitor& v, host::EngineScene& e) {
+    v.number("floor_height", e.floor_height, kAnyLength);
+    v.number("floor_half_extent", e.floor_half_extent, kPositiveLength);
+    v.number("fog_density", e.fog_density, Range{0.0, 10.0});
+    v.numbers("ambient", e.ambient, kUnit);
+    v.list("pillars", e.pillars, [](auto& p, host::Pillar& pillar) {
+        p.numbers("base", pillar.base, kAnyLength);
+        p.number("radius", pillar.radius, kPositiveLength);
+        p.number("height", pillar.height, kPositiveLength);
+    });
+    v.list("crates", e.crates, [](auto& c, host::Crate& crate) {
+        c.numbers("centre", crate.centre, kAnyLength);
+        c.number("size", crate.size, kPositiveLength);
+        c.number("turn_degrees", crate.turn_degrees, kDegrees);
+    });
+    v.list("basins", e.basins, [](auto& b, host::Basin& basin) {
+        b.numbers("centre", basin.centre, kAnyLength);
+        b.number("half_x", basin.half_x, kPositiveLength);
+        b.number("half_z", basin.half_z, kPositiveLength);
+        b.number("height", basin.height, kPositiveLength);
+        b.number("wall", basin.wall, kPositiveLength);
+    });
+}
+
+template <typename Visitor>
+void visitScene(Visitor& v, Scene& s) {
+    v.object("particles", [&s](auto& o) { visitParticles(o, s.particles); });
+    v.object("camera", [&s](auto& o) { visitCamera(o, s.camera); });
+    v.object("sky", [&s](auto& o) { visitSky(o, s.sky); });
+    v.text("environment", s.environment);
+    v.object("fluid", [&s](auto& o) { visitFluid(o, s.fluid); });
+    v.object("engine", [&s](auto& o) { visitEngine(o, s.engine); });
+    v.pair("frames", s.frames.first, s.frames.last, 0, kMaxFrame);
+    v.pair("size", s.size.width, s.size.height, 1, kMaxSize);
+}
+
+}  // namespace sluice::scene

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cmath>
+#include <exception>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "fields.hpp"
+#include "reader.hpp"
+#include "sluice/scene/scene.hpp"
+
+namespace sluice::scene {
+namespace {
+
+/// nlohmann's messages start with "[json.exception...] "; the rest says line, column and what was found.
+std::string withoutTag(const std::string& text) {
+    const std::size_t end = text.find("] ");
+    return end == std::string::npos ? text : text.substr(end + 2);
+}
+
+double length(const Vec3& v) {
+    return std::hypot(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]));
+}
+
+std::string shown(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]); }
+
+Vec3 cross(const Vec3& a, const Vec3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+void checkCamera(ObjectReader& reader, const CameraPath& camera) {
+    if (camera.near_plane >= camera.far_plane) {
+        reader.fail("camera/far", fmt::format("a number > near, which is {}", camera.near_plane),
+                    fmt::format("{}", camera.far_plane));
+    }
+    const Vec3 forward{camera.target[0] - camera.position[0], camera.target[1] - camera.position[1],
+                       camera.target[2] - camera.position[2]};
+    if (length(forward) == 0.0) {
+        reader.fail("camera/target", "a point other than position", shown(camera.target));
+    }
+    // Below one part in a million the cross product of the look-at has lost its direction in 32-bit floats.
+    if (length(cross(forward, camera.up)) <= 1.0e-6 * length(forward) * length(camera.up)) {
+        reader.fail("camera/up", "a direction that is not along the view", shown(camera.up));
+    }
+}
+
+void normaliseSun(ObjectReader& reader, SluiceSky& sky) {
+    const Vec3 to_sun{sky.to_sun[0], sky.to_sun[1], sky.to_sun[2]};
+    const double norm = length(to_sun);
+    if (norm < 1.0e-6) {
+        reader.fail("sky/to_sun", "a direction of length > 0", shown(to_sun));
+        return;
+    }
+    // A vector that is already unit to within rounding stays as it is, so that writing and reading are inverse.
+    if (std::abs(norm - 1.0) > 4.0e-7) {
+        for (float& component : sky.to_sun) {
+            component = static_cast<float>(static_cast<double>(component) / norm);
+        }
+    }
+}
+
+void checkFrames(ObjectReader& reader, const FrameRange& frames) {
+    if (frames.last < frames.first) {
+        reader.fail("frames/1", fmt::format("a whole number >= the first frame, which is {}", frames.first),
+                    fmt::format("{}", frames.last));
+    }
+}
+
+}  // namespace
+
+Result<Scene> parseScene(std::string_view text, const std::string& name) {
+    nlohmann::json document;
+    try {
+        document = nlohmann::json::parse(text.begin(), text.end(), nullptr, true, true);
+    } catch (const std::exception& failure) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
+                     fmt::format("not a JSON document: {}", withoutTag(failure.what())), "docs/cli.md has the schema"};
+    }
+    if (!document.is_object()) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
+                     fmt::format("expected a JSON object, found a JSON {}", document.type_name()),
+                     "docs/cli.md has the schema"};
+    }
+    Scene scene;
+    std::optional<Error> failure;
+    ObjectReader reader(document, "", name, failure);
+    visitScene(reader, scene);
+    reader.finish();
+    checkCamera(reader, scene.camera);
+    normaliseSun(reader, scene.sky);
+    checkFrames(reader, scene.frames);
+    if (failure) {
+        return *failure;
+    }
+    return scene;
+}
+
+}  // namespace sluice::scene
