@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+#include "device/select.hpp"
+
+#include <fmt/format.h>
+#include <volk.h>
+
+#include <algorithm>
+#include <string>
+
+#include "sluice/negotiate.hpp"
+
+namespace sluice::vk {
+namespace {
+
+std::string describeHost(const SluiceHostCapabilities& host) {
+    std::string text = "OpenGL has device";
+    const std::uint32_t count = std::min(host.device_uuid_count, SLUICE_MAX_DEVICE_UUIDS);
+    if (count == 0) {
+        text += " (no UUID)";
+    }
+    for (std::uint32_t i = 0; i < count; ++i) {
+        text += ' ' + uuidText(host.device_uuids[i]);
+    }
+    return text + ", driver " + uuidText(host.driver_uuid);
+}
+
+std::string describeDevice(const SluiceRendererCapabilities& device) {
+    // Cut, so that the message keeps both UUIDs within the 512 characters of a SluiceError.
+    return fmt::format("Vulkan's '{:.40}' has device {}, driver {}", device.device_name, uuidText(device.device_uuid),
+                       uuidText(device.driver_uuid));
+}
+
+}  // namespace
+
+std::string uuidText(const std::uint8_t (&uuid)[SLUICE_UUID_SIZE]) {
+    std::string text;
+    for (std::size_t i = 0; i < SLUICE_UUID_SIZE; ++i) {
+        if (i == 4 || i == 6 || i == 8 || i == 10) {
+            text += '-';
+        }
+        text += fmt::format("{:02x}", uuid[i]);
+    }
+    return text;
+}
+
+std::string_view missingFeature(const DeviceCandidate& candidate) {
+    if (candidate.capabilities.api_version < VK_API_VERSION_1_3) {
+        return "Vulkan 1.3";
+    }
+    if (candidate.capabilities.has_external_memory_fd == 0) {
+        return VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME;
+    }
+    if (candidate.capabilities.has_timeline_semaphore == 0) {
+        return "timelineSemaphore";
+    }
+    if (!candidate.synchronization2) {
+        return "synchronization2";
+    }
+    if (!candidate.dynamic_rendering) {
+        return "dynamicRendering";
+    }
+    if (!candidate.maintenance4) {
+        return "maintenance4";
+    }
+    if (!candidate.host_query_reset) {
+        return "hostQueryReset";
+    }
+    if (!candidate.queue_family) {
+        return "a queue family with graphics and compute";
+    }
+    return {};
+}
+
+Result<std::size_t> selectDevice(std::span<const DeviceCandidate> candidates, const SluiceHostCapabilities* host) {
+    if (candidates.empty()) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "Vulkan", "no physical device was found",
+                     "install a Vulkan driver, for instance the package mesa-vulkan-drivers"};
+    }
+    std::string lacking;
+    for (std::size_t i = 0; i < candidates.size(); ++i) {
+        if (host != nullptr && !sameDevice(*host, candidates[i].capabilities)) {
+            continue;
+        }
+        const std::string_view missing = missingFeature(candidates[i]);
+        if (missing.empty()) {
+            return i;
+        }
+        if (lacking.empty()) {
+            lacking = fmt::format("'{:.120}' lacks {}", candidates[i].capabilities.device_name, missing);
+        }
+    }
+    if (!lacking.empty()) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "Vulkan device", lacking, "update its driver"};
+    }
+    std::string devices;
+    for (const DeviceCandidate& candidate : candidates) {
+        devices += "; " + describeDevice(candidate.capabilities);
+    }
+    return Error{SLUICE_ERROR_DEVICE_MISMATCH, "device", describeHost(*host) + devices,
+                 "let both APIs use one driver, for instance with VK_ICD_FILENAMES"};
+}
+
+}  // namespace sluice::vk

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Which Vulkan device to take: a pure function of what was found.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::vk {
+
+/// A physical device as far as the choice depends on it.
+struct DeviceCandidate {
+    SluiceRendererCapabilities capabilities{};
+    bool synchronization2 = false;
+    bool dynamic_rendering = false;
+    bool maintenance4 = false;
+    bool host_query_reset = false;
+    std::optional<std::uint32_t> queue_family;  ///< first with graphics and compute
+};
+
+/// Index of the first candidate that is the host's device and can run frames. With `host` null any device will do.
+/// DEVICE_MISMATCH names the UUIDs of both sides; UNSUPPORTED names what the host's own device lacks.
+[[nodiscard]] Result<std::size_t> selectDevice(std::span<const DeviceCandidate> candidates,
+                                               const SluiceHostCapabilities* host);
+
+/// Empty if frames can run on the device, else the first thing that it lacks.
+[[nodiscard]] std::string_view missingFeature(const DeviceCandidate& candidate);
+
+/// 16 bytes as in RFC 4122: "6d657361-3232-2e33-2e36-000000000000".
+[[nodiscard]] std::string uuidText(const std::uint8_t (&uuid)[SLUICE_UUID_SIZE]);
+
+}  // namespace sluice::vk
