@@ -51,7 +51,8 @@ extern "C" {
 
 #define SLUICE_ABI_MAJOR 1u
 #define SLUICE_ABI_MINOR 0u
-#define SLUICE_MAKE_ABI(major, minor) (((uint32_t)(major) << 16) | (uint32_t)(minor))
+/* No casts in these macros: C++ readers of this header compile with -Wold-style-cast. */
+#define SLUICE_MAKE_ABI(major, minor) (((major) << 16u) | (minor))
 #define SLUICE_ABI_VERSION SLUICE_MAKE_ABI(SLUICE_ABI_MAJOR, SLUICE_ABI_MINOR)
 #define SLUICE_RENDERER_ENTRY_SYMBOL "sluice_renderer_entry"
 #define SLUICE_UUID_SIZE 16u
@@ -113,7 +114,7 @@ typedef enum SluiceImageRole {
     SLUICE_IMAGE_ROLE_COUNT = 7
 } SluiceImageRole;
 
-#define SLUICE_ROLE_BIT(role) (1u << (uint32_t)(role))
+#define SLUICE_ROLE_BIT(role) (1u << (role))
 
 typedef enum SluiceDepthEncoding {
     SLUICE_DEPTH_WINDOW = 0, /* OpenGL window depth in [0,1], default glDepthRange */

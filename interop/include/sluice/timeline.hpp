@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "sluice/plugin.h"
@@ -28,27 +29,35 @@ enum class Holder : std::uint8_t {
 };
 
 /// The protocol as a state machine for one image set, with no API in it. Each step returns an Error if it breaks the
-/// protocol (value not increasing, step out of order, wrong side).
+/// protocol (value not increasing, step out of order, wrong side) and then changes nothing.
 class HandOff {
   public:
     explicit HandOff(std::uint32_t image_set, std::uint32_t image_sets);
 
-    [[nodiscard]] Status hostAcquire(std::uint64_t frame, std::uint64_t renderer_value);  ///< before the GBuffer is written
+    /// Before the GBuffer is written. Also legal when the fluid of an earlier frame was never composited (its wait timed
+    /// out), once `renderer_value` has reached that frame.
+    [[nodiscard]] Status hostAcquire(std::uint64_t frame, std::uint64_t renderer_value);
     [[nodiscard]] Status hostRelease(std::uint64_t frame);                                ///< signals gbufferWritten(frame)
     [[nodiscard]] Status rendererAcquire(std::uint64_t frame, std::uint64_t host_value);
     [[nodiscard]] Status rendererRelease(std::uint64_t frame);                            ///< signals fluidWritten(frame)
     [[nodiscard]] Status hostCompositeBegin(std::uint64_t frame, std::uint64_t renderer_value);
     [[nodiscard]] Status hostCompositeEnd(std::uint64_t frame);                           ///< signals compositeRead(frame)
-    /// The renderer failed or was skipped for this frame: the host takes the set back without fluid.
+    /// The renderer failed or was skipped for this frame: the host takes the set back without fluid, and nobody waits for
+    /// the frame's value. After rendererRelease the value is promised, so the next hostAcquire still needs it. A frame
+    /// that is not the set's present or a later one of this set is ignored.
     void abandon(std::uint64_t frame);
-    [[nodiscard]] Holder holder() const { return holder_; }
+    [[nodiscard]] Holder holder() const;
 
   private:
+    enum class Step : std::uint8_t { Idle, Capture, InFlightToRenderer, Renderer, InFlightToHost, Composite };
+    [[nodiscard]] Status expect(std::uint64_t frame, Step step, std::string_view call) const;
+    [[nodiscard]] Error broken(std::uint64_t frame, std::string_view call, std::string detail) const;
+
     std::uint32_t set_;
     std::uint32_t sets_;
-    std::uint64_t frame_ = 0;
-    Holder holder_ = Holder::Host;
-    bool compositing_ = false;
+    std::uint64_t frame_ = 0;         ///< the frame that last used the set, 0 before the first
+    std::uint64_t owed_renderer_ = 0; ///< the renderer's counter must reach this before the host may write the set
+    Step step_ = Step::Idle;
 };
 
 /// The GL command stream's end of the two timelines. One interface, one meaning, several backends (host_gl makes them).
