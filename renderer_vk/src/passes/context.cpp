@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+#include "passes/context.hpp"
+
+#include <vector>
+
+#include "device/structs.hpp"
+
+namespace sluice::vk {
+namespace {
+
+VkImageMemoryBarrier2 barrierOf(const Image& image, VkImageLayout from, VkImageLayout to) {
+    auto barrier = vkStruct<VkImageMemoryBarrier2>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2);
+    barrier.oldLayout = from;
+    barrier.newLayout = to;
+    barrier.srcQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = image.image();
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    return barrier;
+}
+
+}  // namespace
+
+void openImages(const PassContext& context) {
+    std::vector<VkImageMemoryBarrier2> barriers;
+    for (const PlannedImage& planned : context.plan.images) {
+        const bool drawn = planned.id == PlanImage::DepthA || planned.id == PlanImage::Thickness;
+        VkImageMemoryBarrier2 barrier =
+            barrierOf(context.images[planned.id], VK_IMAGE_LAYOUT_UNDEFINED,
+                      drawn ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL);
+        // The last frame's accesses of these images were all by compute or by the splat itself.
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+        barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+        barrier.dstStageMask =
+            drawn ? VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+        barrier.dstAccessMask =
+            drawn ? VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT
+                  : VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+        barriers.push_back(barrier);
+    }
+    // nothing_to_write is bound in every frame, so that the frames' last dispatches are ordered among themselves.
+    auto memory = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
+    memory.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    memory.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    memory.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    memory.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &memory;
+    dependency.imageMemoryBarrierCount = static_cast<std::uint32_t>(barriers.size());
+    dependency.pImageMemoryBarriers = barriers.data();
+    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
+}
+
+void closeAttachment(const PassContext& context, PlanImage id) {
+    VkImageMemoryBarrier2 barrier =
+        barrierOf(context.images[id], VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_IMAGE_LAYOUT_GENERAL);
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    dependency.imageMemoryBarrierCount = 1;
+    dependency.pImageMemoryBarriers = &barrier;
+    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
+}
+
+void betweenDispatches(const PassContext& context) {
+    auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
+}
+
+void dispatchOver(const PassContext& context, std::uint32_t width, std::uint32_t height, std::uint32_t tile_x,
+                  std::uint32_t tile_y) {
+    context.device.fn.vkCmdDispatch(context.commands, (width + tile_x - 1) / tile_x, (height + tile_y - 1) / tile_y, 1);
+}
+
+}  // namespace sluice::vk

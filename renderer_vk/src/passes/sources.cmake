@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: MIT
+# Included by renderer_vk/CMakeLists.txt: the pass plan and the passes.
+list(APPEND SLUICE_VK_SOURCES
+    src/plan/plan.cpp
+    src/plan/explain.cpp
+    src/passes/arena.cpp
+    src/passes/context.cpp
+    src/passes/echo.cpp
+    src/passes/fluid_recorder.cpp
+    src/passes/frame_constants.cpp
+    src/passes/pipeline.cpp
+)
+list(APPEND SLUICE_VK_LIBS sluice_shaders)
