@@ -26,7 +26,8 @@ struct EngineScene {
     std::vector<Pillar> pillars;
     std::vector<Crate> crates;
     std::vector<Basin> basins;
-    Vec3 ambient{0.35F, 0.37F, 0.42F};
+    Vec3 ambient{0.35F, 0.37F, 0.42F};  ///< added to every lit surface, in sRGB-encoded values as the engine works in them
+    float enclosure_height = 3.0F;      ///< of the arcaded wall around the floor's edge; 0 leaves it out
 };
 
 /// Draws with display lists, fixed-function lighting and fog, procedural textures and a sky dome, into whatever framebuffer
