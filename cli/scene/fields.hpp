@@ -59,11 +59,11 @@ void visitFluid(Visitor& v, SluiceFluid& f) {
     v.number("specular_power", f.specular_power, Range{1.0, 1.0e5});
     v.number("splat_radius", f.splat_radius, Range{0.1, 10.0});
     v.choice("filter", f.filter, kFilters);
-    v.integer("filter_iterations", f.filter_iterations, 0, 64);
+    v.integer("filter_iterations", f.filter_iterations, 0, 16);
     v.number("filter_range", f.filter_range, Range{0.0, 1000.0, true});
     v.number("filter_clamp", f.filter_clamp, Range{0.0, 1000.0, true});
     v.number("filter_sigma", f.filter_sigma, Range{0.0, 100.0, true});
-    v.integer("filter_max_pixels", f.filter_max_pixels, 1, 1024);
+    v.integer("filter_max_pixels", f.filter_max_pixels, 1, 128);
     v.numberOf("thickness_scale", f.thickness_scale, std::array{1.0F, 0.5F, 0.25F});
     v.number("thickness_blur", f.thickness_blur, Range{0.0, 100.0});
     v.flag("refraction", f.refraction);

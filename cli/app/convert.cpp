@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "app/commands.hpp"
+#include "app/log.hpp"
+#include "report/table.hpp"
+#include "sluice/particles/particles.hpp"
+
+namespace sluice::cli {
+
+int convert(const ConvertOptions& options) {
+    const Result<particles::ParticleSet> set = particles::load(options.input, options.radius);
+    if (!set) {
+        logError(set.error());
+        return kExitBadInput;
+    }
+    if (const Status saved = particles::save(options.output, set.value()); !saved) {
+        logError(saved.error());
+        return saved.error().code == SLUICE_ERROR_INVALID_ARGUMENT ? kExitUsage : kExitInternal;
+    }
+    fmt::print("{}: {} particles of radius {:.5f} m\n", options.output, formatCount(set.value().count()),
+               set.value().radius);
+    return kExitOk;
+}
+
+}  // namespace sluice::cli

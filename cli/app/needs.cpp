@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "app/needs.hpp"
+
+namespace sluice::cli {
+
+SluiceSceneNeeds sceneNeeds(const scene::Scene& scene, scene::Size size, std::uint32_t particles,
+                            std::uint32_t outputs) {
+    SluiceSceneNeeds needs{};
+    needs.struct_size = sizeof(needs);
+    needs.width = size.width;
+    needs.height = size.height;
+    needs.particle_count = particles;
+    needs.has_environment_map = scene.environment.empty() ? 0 : 1;
+    needs.outputs = outputs;
+    needs.fluid = scene.fluid;
+    return needs;
+}
+
+}  // namespace sluice::cli

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// What was asked for on the command line.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "sluice/plugin.h"
+#include "sluice/scene/scene.hpp"
+
+namespace sluice::cli {
+
+struct RenderOptions {
+    std::string scene, output;
+    std::optional<scene::FrameRange> frames;
+    std::optional<scene::Size> size;
+    std::string particles;  ///< instead of the scene's path
+    std::string layers, trace, plugin;
+    bool json = false, quiet = false, validation = false, no_fluid = false;
+    SluiceTimelineKind timeline = SLUICE_TIMELINE_AUTO;
+    SluiceFormat depth_format = SLUICE_FORMAT_NONE;
+    std::uint32_t image_sets = 2;
+    std::optional<std::uint32_t> view;  ///< SluiceView
+};
+
+struct ProbeOptions {
+    std::string plugin;
+    bool json = false, validation = false;
+};
+
+struct ExplainOptions {
+    std::string scene, particles, plugin;
+    std::optional<scene::Size> size;
+    bool json = false, layers = false;
+};
+
+struct GenerateOptions {
+    std::uint64_t particles = 100'000;
+    std::uint64_t seed = 1;
+    scene::FrameRange frames;
+    std::string output;
+    bool quiet = false;
+};
+
+struct ConvertOptions {
+    std::string input, output;
+    float radius = 0.0F;  ///< for inputs that carry none
+};
+
+}  // namespace sluice::cli

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "app/parse_values.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <optional>
+
+namespace sluice::cli {
+namespace {
+
+/// All of `text` as a whole number without sign, blanks or leftovers.
+std::optional<std::int64_t> whole(std::string_view text) {
+    std::int64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, value);
+    if (failure != std::errc{} || stop != end || text.front() == '-') {
+        return std::nullopt;
+    }
+    return value;
+}
+
+Error bad(std::string_view what, std::string_view expected, std::string_view found) {
+    return Error{SLUICE_ERROR_INVALID_ARGUMENT, std::string(what),
+                 fmt::format("expected {}, found \"{}\"", expected, found), ""};
+}
+
+}  // namespace
+
+Result<scene::FrameRange> parseFrameRange(std::string_view text) {
+    const std::size_t dots = text.find("..");
+    const std::string_view left = text.substr(0, dots);
+    const std::string_view right = dots == std::string_view::npos ? left : text.substr(dots + 2);
+    const auto first = left.empty() ? std::nullopt : whole(left);
+    const auto last = right.empty() ? std::nullopt : whole(right);
+    if (!first || !last || *first > *last || *last > scene::kMaxFrame) {
+        return bad("frames", fmt::format("A..B with 0 <= A <= B <= {}", scene::kMaxFrame), text);
+    }
+    return scene::FrameRange{*first, *last};
+}
+
+Result<scene::Size> parseSize(std::string_view text) {
+    const std::size_t cross = text.find('x');
+    if (cross != std::string_view::npos && cross > 0 && cross + 1 < text.size()) {
+        const auto width = whole(text.substr(0, cross));
+        const auto height = whole(text.substr(cross + 1));
+        if (width && height && *width >= 1 && *height >= 1 && *width <= scene::kMaxSize && *height <= scene::kMaxSize) {
+            return scene::Size{static_cast<std::uint32_t>(*width), static_cast<std::uint32_t>(*height)};
+        }
+    }
+    return bad("size", fmt::format("WxH, each 1 to {}", scene::kMaxSize), text);
+}
+
+}  // namespace sluice::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "app/plugin_path.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdlib>
+#include <system_error>
+
+namespace sluice::cli {
+
+std::vector<std::filesystem::path> pluginCandidates(const std::string& option, const std::string& variable,
+                                                    const std::filesystem::path& program) {
+    if (!option.empty()) {
+        return {option};
+    }
+    if (!variable.empty()) {
+        return {variable};
+    }
+    const std::filesystem::path folder = program.parent_path();
+    return {folder / kPluginFile, (folder / "../lib/sluice" / kPluginFile).lexically_normal()};
+}
+
+Result<host::PluginLibrary> loadPlugin(const std::string& option) {
+    std::error_code ignored;
+    const char* variable = std::getenv(kPluginVariable);
+    const auto candidates = pluginCandidates(option, variable == nullptr ? "" : variable,
+                                             std::filesystem::read_symlink("/proc/self/exe", ignored));
+    std::string looked;
+    for (const std::filesystem::path& candidate : candidates) {
+        if (std::filesystem::exists(candidate, ignored)) {
+            return host::PluginLibrary::load(candidate);
+        }
+        looked += (looked.empty() ? "" : " and ") + candidate.string();
+    }
+    return Error{SLUICE_ERROR_UNSUPPORTED, "renderer plugin", fmt::format("not found at {}", looked),
+                 fmt::format("give its path with --plugin or {}", kPluginVariable)};
+}
+
+}  // namespace sluice::cli

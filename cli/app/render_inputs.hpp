@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+// Everything that a render reads, checked before anything is drawn or written.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/options.hpp"
+#include "image/environment.hpp"
+#include "sluice/particles/particles.hpp"
+#include "sluice/result.hpp"
+#include "sluice/scene/scene.hpp"
+
+namespace sluice::cli {
+
+struct RenderInputs {
+    scene::Scene scene;
+    scene::FrameRange frames;
+    scene::Size size;
+    std::optional<Environment> environment;
+};
+
+/// The scene with the command line's overrides. Reads the scene file only.
+[[nodiscard]] Result<RenderInputs> readScene(const RenderOptions& options);
+
+/// Reads the environment map and every particle file once, so that a bad file is found before the first output.
+[[nodiscard]] Status checkInputs(RenderInputs& inputs);
+
+/// The file of `frame`.
+[[nodiscard]] Result<std::filesystem::path> particlePath(const scene::ParticleSource& source, std::int64_t frame);
+
+/// Reads a particle file into world space.
+[[nodiscard]] Result<particles::ParticleSet> loadParticles(const scene::ParticleSource& source,
+                                                           const std::filesystem::path& path);
+
+/// world = scale * file + translate, radius and velocity scaled.
+void transform(particles::ParticleSet& set, const scene::ParticleSource& source);
+
+/// The ABI's view of `set`, which must outlive it.
+[[nodiscard]] SluiceParticles particleView(const particles::ParticleSet& set);
+
+}  // namespace sluice::cli

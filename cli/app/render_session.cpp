@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "app/render_session.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "app/log.hpp"
+#include "app/plugin_path.hpp"
+#include "sluice/format.hpp"
+
+namespace sluice::cli {
+namespace {
+
+constexpr std::size_t kTraceCapacity = 1U << 14U;  ///< events of one frame; a frame of first light makes about a hundred
+
+/// Milliseconds that `work` took.
+template <typename Work>
+double timed(const Work& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+    return elapsed.count();
+}
+
+/// The reason that the negotiation gives for `kind`; the renderer negotiated from the same capabilities.
+std::string reasonFor(SluiceTimelineKind kind, const SluiceRendererInfo& info, const RenderOptions& options) {
+    if (options.timeline != SLUICE_TIMELINE_AUTO) {
+        return "asked for with --timeline";
+    }
+    NegotiationRequest request;
+    request.outputs = layerOutputs(options);
+    request.host_depth = options.depth_format;
+    std::vector<Reason> considered;
+    const auto agreement = negotiate(host::queryCapabilities(), info.capabilities, request, &considered);
+    const std::vector<Reason>& reasons = agreement ? agreement.value().reasons : considered;
+    std::string text;
+    for (const Reason& reason : reasons) {
+        if (reason.subject.starts_with("timeline ")) {
+            text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", reason.subject.substr(9), reason.why);
+            if (reason.accepted) {
+                break;  // those after it were only second best
+            }
+        }
+    }
+    return text.empty() ? std::string(toString(kind)) : text;
+}
+
+/// Reads the images of the set that the last frame used.
+void readFluid(FrameLayers& layers, const RenderSession& session, const RenderInputs& inputs) {
+    const auto read = [&](SluiceImageRole role) -> std::optional<host::Pixels> {
+        const std::uint32_t texture = session.fluid->texture(role);
+        if (texture == 0) {
+            return std::nullopt;
+        }
+        const auto format = static_cast<SluiceFormat>(session.fluid->info().formats[role]);
+        return host::readTexture(texture, format, inputs.size.width, inputs.size.height, session.trace.get());
+    };
+    layers.fluid_colour = read(SLUICE_IMAGE_FLUID_COLOUR);
+    layers.fluid_depth = read(SLUICE_IMAGE_FLUID_DEPTH);
+    layers.fluid_normal = read(SLUICE_IMAGE_FLUID_NORMAL);
+    layers.fluid_thickness = read(SLUICE_IMAGE_FLUID_THICKNESS);
+}
+
+}  // namespace
+
+std::uint32_t layerOutputs(const RenderOptions& options) {
+    return options.layers.empty()
+               ? 0
+               : SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS);
+}
+
+Result<RenderSession> createSession(const RenderInputs& inputs) {
+    Result<host::GlContext> context = host::GlContext::create();
+    if (!context) {
+        return context.error();
+    }
+    if (Status current = context.value().makeCurrent(); !current) {
+        return current.error();
+    }
+    Result<host::Screen> screen = host::Screen::create(inputs.size.width, inputs.size.height);
+    if (!screen) {
+        return screen.error();
+    }
+    Result<host::LegacyEngine> engine = host::LegacyEngine::create(inputs.scene.engine);
+    if (!engine) {
+        return engine.error();
+    }
+    return RenderSession{std::make_unique<Trace>(kTraceCapacity),
+                         std::move(context).value(),
+                         std::move(screen).value(),
+                         std::move(engine).value(),
+                         std::nullopt,
+                         nullptr,
+                         {}};
+}
+
+Status startFluid(RenderSession& session, const RenderInputs& inputs, const RenderOptions& options) {
+    Result<host::PluginLibrary> library = loadPlugin(options.plugin);
+    if (!library) {
+        return library.error();
+    }
+    session.library.emplace(std::move(library).value());
+    host::FluidHostConfig config;
+    config.width = inputs.size.width;
+    config.height = inputs.size.height;
+    config.image_sets = options.image_sets;
+    config.timeline = options.timeline;
+    config.outputs = layerOutputs(options);
+    config.host_depth = options.depth_format;
+    config.validation = options.validation;
+    config.trace = session.trace.get();
+    config.log = [](SluiceLogLevel level, std::string_view message) { log(level, message); };
+    Result<std::unique_ptr<host::FluidHost>> fluid = host::FluidHost::create(*session.library, config);
+    if (!fluid) {
+        return fluid.error();
+    }
+    session.fluid = std::move(fluid).value();
+    const SluiceRendererInfo& info = session.fluid->info();
+    session.timeline_reason = reasonFor(static_cast<SluiceTimelineKind>(info.timeline), info, options);
+    if (inputs.environment) {
+        SluiceEnvironment map{};
+        map.struct_size = sizeof(map);
+        map.width = inputs.environment->width;
+        map.height = inputs.environment->height;
+        map.pixels = inputs.environment->pixels.data();
+        if (Status status = session.fluid->setEnvironment(&map); !status) {
+            session.fluid.reset();
+            return status;
+        }
+    }
+    return {};
+}
+
+FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, const RenderOptions& options,
+                        std::int64_t frame) {
+    FrameResult result;
+    const bool layers = !options.layers.empty();
+    const SluiceCamera camera = scene::cameraAt(inputs.scene, frame, inputs.size);
+    result.draw_ms = timed([&] {
+        session.screen.bind();
+        session.engine.draw(camera, inputs.scene.sky);
+    });
+    if (layers) {
+        result.layers.host_colour = host::readColour(session.screen, session.trace.get());
+        result.layers.host_depth = host::readDepth(session.screen, session.trace.get());
+    }
+    if (session.fluid) {
+        host::FrameInput input;
+        input.camera = camera;
+        input.sky = inputs.scene.sky;
+        input.fluid = inputs.scene.fluid;
+        input.outputs = layerOutputs(options);
+        Status status;
+        result.submit_ms = timed([&] { status = session.fluid->submit(session.screen, input); });
+        if (status) {
+            result.composite_ms = timed([&] { status = session.fluid->composite(session.screen); });
+        }
+        result.with_fluid = status.ok();
+        if (!status) {
+            result.failure = status.error();
+        }
+    }
+    if (result.with_fluid) {
+        if (Result<SluiceFrameStats> stats = session.fluid->stats(session.fluid->frame()); stats) {
+            result.stats = stats.value();
+        } else {
+            log(SLUICE_LOG_WARNING, "statistics: " + stats.error().message());
+        }
+        if (layers) {
+            readFluid(result.layers, session, inputs);
+        }
+    }
+    result.layers.beauty = host::readColour(session.screen, session.trace.get());
+    return result;
+}
+
+}  // namespace sluice::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+// The live objects of a render: engine, screen, and fluid while it works.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/options.hpp"
+#include "app/render_inputs.hpp"
+#include "image/layers.hpp"
+#include "report/statistics.hpp"
+#include "sluice/host_gl/context.hpp"
+#include "sluice/host_gl/engine.hpp"
+#include "sluice/host_gl/fluid_host.hpp"
+#include "sluice/host_gl/plugin_library.hpp"
+#include "sluice/host_gl/screen.hpp"
+#include "sluice/negotiate.hpp"
+#include "sluice/trace.hpp"
+
+namespace sluice::cli {
+
+/// Declared in the order of dependence, so that destruction runs the other way with the context still current.
+struct RenderSession {
+    std::unique_ptr<Trace> trace;
+    host::GlContext context;
+    host::Screen screen;
+    host::LegacyEngine engine;
+    std::optional<host::PluginLibrary> library;
+    std::unique_ptr<host::FluidHost> fluid;  ///< null: frames without fluid
+    std::string timeline_reason;             ///< why the timeline in use was chosen
+};
+
+/// Context, screen and engine. The context is current from here on.
+[[nodiscard]] Result<RenderSession> createSession(const RenderInputs& inputs);
+
+/// Loads the plugin and creates the renderer. On failure the session renders without fluid.
+[[nodiscard]] Status startFluid(RenderSession& session, const RenderInputs& inputs, const RenderOptions& options);
+
+/// The FLUID_* roles that the layered EXR needs beyond colour and depth.
+[[nodiscard]] std::uint32_t layerOutputs(const RenderOptions& options);
+
+/// What one frame left behind.
+struct FrameResult {
+    FrameLayers layers;
+    bool with_fluid = false;
+    std::optional<Error> failure;  ///< why there is no fluid, if there should be
+    std::optional<SluiceFrameStats> stats;
+    double draw_ms = 0.0, submit_ms = 0.0, composite_ms = 0.0;  ///< time of the calls on the host's thread
+};
+
+/// Draws the engine's frame, then fluid into it, then reads back what the output files need.
+[[nodiscard]] FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, const RenderOptions& options,
+                                      std::int64_t frame);
+
+}  // namespace sluice::cli
