@@ -43,6 +43,8 @@
 #ifndef SLUICE_PLUGIN_H
 #define SLUICE_PLUGIN_H
 
+/* C99: what clang-tidy would modernise in C++ has to stay as it is.
+ * NOLINTBEGIN(modernize-*,performance-enum-size,bugprone-macro-parentheses) */
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -63,16 +65,16 @@ extern "C" {
 /* Results. Zero and positive values are not failures. */
 typedef enum SluiceResult {
     SLUICE_OK = 0,
-    SLUICE_NOT_READY = 1,               /* poll: that frame has not finished yet */
-    SLUICE_TIMEOUT = 2,                 /* timeline_wait: the deadline passed; nothing was lost, wait again or give up */
+    SLUICE_NOT_READY = 1, /* poll: that frame has not finished yet */
+    SLUICE_TIMEOUT = 2,   /* timeline_wait: the deadline passed; nothing was lost, wait again or give up */
     SLUICE_ERROR_INVALID_ARGUMENT = -1, /* the caller broke this contract */
     SLUICE_ERROR_ABI_MISMATCH = -2,
-    SLUICE_ERROR_UNSUPPORTED = -3,      /* this device or driver lacks something; the message says what */
-    SLUICE_ERROR_DEVICE_MISMATCH = -4,  /* no Vulkan device has the UUIDs of the GL context */
+    SLUICE_ERROR_UNSUPPORTED = -3,     /* this device or driver lacks something; the message says what */
+    SLUICE_ERROR_DEVICE_MISMATCH = -4, /* no Vulkan device has the UUIDs of the GL context */
     SLUICE_ERROR_OUT_OF_MEMORY = -5,
-    SLUICE_ERROR_DEVICE_LOST = -6,      /* destroy and create again */
-    SLUICE_ERROR_CANARY = -7,           /* a shared image did not carry its contents across; see the message */
-    SLUICE_ERROR_IMPORT = -8,           /* the host could not import a memory object */
+    SLUICE_ERROR_DEVICE_LOST = -6, /* destroy and create again */
+    SLUICE_ERROR_CANARY = -7,      /* a shared image did not carry its contents across; see the message */
+    SLUICE_ERROR_IMPORT = -8,      /* the host could not import a memory object */
     SLUICE_ERROR_INTERNAL = -9
 } SluiceResult;
 
@@ -104,11 +106,11 @@ typedef enum SluiceFormat {
 
 /* What a shared image is for. */
 typedef enum SluiceImageRole {
-    SLUICE_IMAGE_HOST_COLOUR = 0,     /* host writes: its frame before fluid, sRGB-encoded, for refraction */
-    SLUICE_IMAGE_HOST_DEPTH = 1,      /* host writes: its depth, in SluiceRendererInfo::host_depth_encoding */
-    SLUICE_IMAGE_FLUID_COLOUR = 2,    /* renderer writes: sRGB-encoded colour, not premultiplied; alpha = coverage */
-    SLUICE_IMAGE_FLUID_DEPTH = 3,     /* renderer writes: 32-bit float window depth in [0,1]; 1 where there is no fluid */
-    SLUICE_IMAGE_FLUID_NORMAL = 4,    /* renderer writes: xyz = unit eye-space normal, w = 1 on fluid and 0 elsewhere */
+    SLUICE_IMAGE_HOST_COLOUR = 0,  /* host writes: its frame before fluid, sRGB-encoded, for refraction */
+    SLUICE_IMAGE_HOST_DEPTH = 1,   /* host writes: its depth, in SluiceRendererInfo::host_depth_encoding */
+    SLUICE_IMAGE_FLUID_COLOUR = 2, /* renderer writes: sRGB-encoded colour, not premultiplied; alpha = coverage */
+    SLUICE_IMAGE_FLUID_DEPTH = 3,  /* renderer writes: 32-bit float window depth in [0,1]; 1 where there is no fluid */
+    SLUICE_IMAGE_FLUID_NORMAL = 4, /* renderer writes: xyz = unit eye-space normal, w = 1 on fluid and 0 elsewhere */
     SLUICE_IMAGE_FLUID_THICKNESS = 5, /* renderer writes: metres of fluid along the view ray */
     SLUICE_IMAGE_CANARY = 6,          /* short-lived, for proving a format; never part of a frame */
     SLUICE_IMAGE_ROLE_COUNT = 7
@@ -123,11 +125,11 @@ typedef enum SluiceDepthEncoding {
 
 /* How the two sides order their work. All have one meaning; docs/protocol.md. */
 typedef enum SluiceTimelineKind {
-    SLUICE_TIMELINE_AUTO = 0,           /* request only: the best that the probe proves */
-    SLUICE_TIMELINE_NATIVE = 1,         /* GL_NV_timeline_semaphore with an exported Vulkan timeline semaphore */
-    SLUICE_TIMELINE_BINARY = 2,         /* GL_EXT_semaphore_fd: one exported binary semaphore per value */
-    SLUICE_TIMELINE_BRIDGED = 3,        /* GL fence + client wait + vkSignalSemaphore; vkWaitSemaphores on the way back */
-    SLUICE_TIMELINE_FINISH = 4,         /* glFinish and an idle queue: the baseline to compare with */
+    SLUICE_TIMELINE_AUTO = 0,    /* request only: the best that the probe proves */
+    SLUICE_TIMELINE_NATIVE = 1,  /* GL_NV_timeline_semaphore with an exported Vulkan timeline semaphore */
+    SLUICE_TIMELINE_BINARY = 2,  /* GL_EXT_semaphore_fd: one exported binary semaphore per value */
+    SLUICE_TIMELINE_BRIDGED = 3, /* GL fence + client wait + vkSignalSemaphore; vkWaitSemaphores on the way back */
+    SLUICE_TIMELINE_FINISH = 4,  /* glFinish and an idle queue: the baseline to compare with */
     SLUICE_TIMELINE_UNSYNCHRONISED = 5, /* request only, never chosen: no waits at all, to show that tests notice */
     SLUICE_TIMELINE_KIND_COUNT = 6
 } SluiceTimelineKind;
@@ -152,9 +154,9 @@ typedef enum SluiceTraceKind {
     SLUICE_TRACE_ACQUIRE = 2, /* a side takes a shared image; bytes = its size */
     SLUICE_TRACE_RELEASE = 3, /* a side gives a shared image up; bytes = its size */
     SLUICE_TRACE_SUBMIT = 4,
-    SLUICE_TRACE_PASS = 5,    /* one GPU pass; bytes = bytes it touched at least once (compulsory traffic) */
-    SLUICE_TRACE_CPU_COPY = 6,/* bytes moved by the CPU between its memory and an image or buffer; never in a frame loop
-                                 for a shared image */
+    SLUICE_TRACE_PASS = 5,     /* one GPU pass; bytes = bytes it touched at least once (compulsory traffic) */
+    SLUICE_TRACE_CPU_COPY = 6, /* bytes moved by the CPU between its memory and an image or buffer; never in a frame
+                                  loop for a shared image */
     SLUICE_TRACE_MARK = 7,
     SLUICE_TRACE_KIND_COUNT = 8
 } SluiceTraceKind;
@@ -171,8 +173,8 @@ typedef enum SluiceTrack {
 /* One event. Times are CLOCK_MONOTONIC nanoseconds. name is copied by the receiver (truncated to 31 characters). */
 typedef struct SluiceTraceEvent {
     uint32_t struct_size;
-    uint32_t kind;  /* SluiceTraceKind */
-    uint32_t track; /* SluiceTrack */
+    uint32_t kind;      /* SluiceTraceKind */
+    uint32_t track;     /* SluiceTrack */
     uint32_t direction; /* SluiceDirection, for SIGNAL and WAIT */
     uint64_t begin_ns;
     uint64_t duration_ns;
@@ -184,8 +186,8 @@ typedef struct SluiceTraceEvent {
 
 /* ---------------------------------------------------------------------------------------------- shared images -- */
 
-/* One image that the renderer has allocated and exported: dedicated allocation, image bound at offset 0, optimal tiling,
- * one mip, one layer, one sample. */
+/* One image that the renderer has allocated and exported: dedicated allocation, image bound at offset 0, optimal
+ * tiling, one mip, one layer, one sample. */
 typedef struct SluiceImageExport {
     uint32_t struct_size;
     uint32_t role;      /* SluiceImageRole */
@@ -249,18 +251,18 @@ typedef struct SluiceRendererCapabilities {
     uint32_t exports_timeline_fd; /* timeline semaphores as OPAQUE_FD */
     uint32_t exports_binary_fd;   /* binary semaphores as OPAQUE_FD */
     uint32_t queue_families, queues;
-    uint32_t exportable_formats;      /* bit per SluiceFormat: exportable with the usages that frames need */
-    uint32_t storage_formats;         /* bit per SluiceFormat: usable as a storage image */
-    uint32_t blendable_formats;       /* bit per SluiceFormat: colour attachment with blending */
-    uint32_t dedicated_required;      /* bit per SluiceFormat */
+    uint32_t exportable_formats; /* bit per SluiceFormat: exportable with the usages that frames need */
+    uint32_t storage_formats;    /* bit per SluiceFormat: usable as a storage image */
+    uint32_t blendable_formats;  /* bit per SluiceFormat: colour attachment with blending */
+    uint32_t dedicated_required; /* bit per SluiceFormat */
     char device_name[128], driver_name[64], driver_info[128];
 } SluiceRendererCapabilities;
 
 /* ------------------------------------------------------------------------------------------------------ scene -- */
 
 typedef struct SluiceCamera {
-    float view[16];       /* world to eye */
-    float projection[16]; /* eye to clip, OpenGL convention, perspective and symmetric or not */
+    float view[16];              /* world to eye */
+    float projection[16];        /* eye to clip, OpenGL convention, perspective and symmetric or not */
     float near_plane, far_plane; /* metres, 0 < near < far */
 } SluiceCamera;
 
@@ -280,12 +282,12 @@ typedef enum SluiceFilterKind {
 } SluiceFilterKind;
 
 typedef enum SluiceView {
-    SLUICE_VIEW_FLUID = 0,     /* the shaded fluid */
-    SLUICE_VIEW_DEPTH = 1,     /* debug views: the named buffer as colours, coverage 1 on fluid */
+    SLUICE_VIEW_FLUID = 0, /* the shaded fluid */
+    SLUICE_VIEW_DEPTH = 1, /* debug views: the named buffer as colours, coverage 1 on fluid */
     SLUICE_VIEW_NORMAL = 2,
     SLUICE_VIEW_THICKNESS = 3,
-    SLUICE_VIEW_ECHO = 4       /* FLUID_COLOUR = HOST_COLOUR and FLUID_DEPTH = HOST_DEPTH, texel for texel: checks the
-                                  hand-off without any fluid */
+    SLUICE_VIEW_ECHO = 4 /* FLUID_COLOUR = HOST_COLOUR and FLUID_DEPTH = HOST_DEPTH, texel for texel: checks the
+                            hand-off without any fluid */
 } SluiceView;
 
 /* How the fluid looks. Lengths "in radii" are multiples of the particle radius. */
@@ -297,18 +299,19 @@ typedef struct SluiceFluid {
     float splat_radius;        /* in radii; 1.5 */
     uint32_t filter;           /* SluiceFilterKind */
     uint32_t filter_iterations;
-    float filter_range;        /* in radii: half-width delta of the narrow range */
-    float filter_clamp;        /* in radii: mu, how far below the centre a farther sample is clamped */
-    float filter_sigma;        /* in radii: world-space standard deviation of the spatial weight */
-    uint32_t filter_max_pixels;/* cap of the filter's half-width in pixels */
-    float thickness_scale;     /* resolution of the thickness pass: 1, 0.5 or 0.25 */
-    float thickness_blur;      /* in radii: standard deviation of the Gaussian; 0 turns the blur off */
-    uint32_t refraction;       /* 0: the host's colour is not sampled */
-    uint32_t reflection;       /* 0: no environment is sampled */
-    uint32_t view;             /* SluiceView */
+    float filter_range;         /* in radii: half-width delta of the narrow range */
+    float filter_clamp;         /* in radii: mu, how far below the centre a farther sample is clamped */
+    float filter_sigma;         /* in radii: world-space standard deviation of the spatial weight */
+    uint32_t filter_max_pixels; /* cap of the filter's half-width in pixels */
+    float thickness_scale;      /* resolution of the thickness pass: 1, 0.5 or 0.25 */
+    float thickness_blur;       /* in radii: standard deviation of the Gaussian; 0 turns the blur off */
+    uint32_t refraction;        /* 0: the host's colour is not sampled */
+    uint32_t reflection;        /* 0: no environment is sampled */
+    uint32_t view;              /* SluiceView */
 } SluiceFluid;
 
-/* A particle set on the CPU. Arrays are tightly packed float triples in world metres; velocity and colour may be NULL. */
+/* A particle set on the CPU. Arrays are tightly packed float triples in world metres; velocity and colour may be NULL.
+ */
 typedef struct SluiceParticles {
     uint32_t struct_size;
     uint32_t count;
@@ -358,11 +361,11 @@ typedef struct SluiceFrame {
 
 typedef struct SluicePassStats {
     char name[32];
-    uint64_t nanoseconds; /* GPU time between timestamps; 0 if the device has none */
-    uint64_t elements;    /* particles for splats, pixels for image passes */
-    uint64_t bytes;       /* compulsory traffic: each input read once, each output written once */
+    uint64_t nanoseconds;  /* GPU time between timestamps; 0 if the device has none */
+    uint64_t elements;     /* particles for splats, pixels for image passes */
+    uint64_t bytes;        /* compulsory traffic: each input read once, each output written once */
     uint32_t is_particles; /* 1: elements are particles, 0: pixels */
-    uint32_t dispatches;  /* draws or dispatches that the pass recorded */
+    uint32_t dispatches;   /* draws or dispatches that the pass recorded */
 } SluicePassStats;
 
 typedef struct SluiceFrameStats {
@@ -370,18 +373,18 @@ typedef struct SluiceFrameStats {
     uint32_t pass_count;
     uint64_t frame;
     SluicePassStats passes[SLUICE_MAX_PASSES];
-    uint64_t cpu_copy_bytes;   /* bytes of shared images that the CPU moved during this frame; 0 by contract */
-    uint64_t upload_bytes;     /* particle data uploaded for this frame */
+    uint64_t cpu_copy_bytes;      /* bytes of shared images that the CPU moved during this frame; 0 by contract */
+    uint64_t upload_bytes;        /* particle data uploaded for this frame */
     uint32_t validation_messages; /* since create, when validation is on */
 } SluiceFrameStats;
 
 typedef struct SluiceCreateInfo {
     uint32_t struct_size;
-    uint32_t width, height; /* of the shared images; 1..16384 */
-    uint32_t image_sets;    /* 1..SLUICE_MAX_IMAGE_SETS */
-    uint32_t timeline;      /* SluiceTimelineKind requested */
-    uint32_t validation;    /* 1: enable VK_LAYER_KHRONOS_validation with synchronisation validation */
-    uint32_t outputs;       /* FLUID_* images to share; see SluiceSceneNeeds::outputs */
+    uint32_t width, height;     /* of the shared images; 1..16384 */
+    uint32_t image_sets;        /* 1..SLUICE_MAX_IMAGE_SETS */
+    uint32_t timeline;          /* SluiceTimelineKind requested */
+    uint32_t validation;        /* 1: enable VK_LAYER_KHRONOS_validation with synchronisation validation */
+    uint32_t outputs;           /* FLUID_* images to share; see SluiceSceneNeeds::outputs */
     uint32_t host_depth_format; /* SluiceFormat to force for HOST_DEPTH, or SLUICE_FORMAT_NONE to negotiate */
     SluiceHostCapabilities host;
 } SluiceCreateInfo;
@@ -389,9 +392,9 @@ typedef struct SluiceCreateInfo {
 /* What create settled on. */
 typedef struct SluiceRendererInfo {
     uint32_t struct_size;
-    uint32_t timeline;                             /* SluiceTimelineKind in use */
-    uint32_t formats[SLUICE_IMAGE_ROLE_COUNT];     /* SluiceFormat per role, NONE where not shared */
-    uint32_t host_depth_encoding;                  /* SluiceDepthEncoding */
+    uint32_t timeline;                         /* SluiceTimelineKind in use */
+    uint32_t formats[SLUICE_IMAGE_ROLE_COUNT]; /* SluiceFormat per role, NONE where not shared */
+    uint32_t host_depth_encoding;              /* SluiceDepthEncoding */
     uint32_t image_sets, width, height;
     SluiceRendererCapabilities capabilities;
 } SluiceRendererInfo;
@@ -406,7 +409,7 @@ typedef void (*SluiceLineSink)(void* user, const char* line);
 typedef struct SluiceRendererApi {
     uint32_t struct_size;
     uint32_t abi_version;
-    const char* name;    /* lives as long as the library is loaded, as does version */
+    const char* name; /* lives as long as the library is loaded, as does version */
     const char* version;
 
     /* Capabilities of the device that create would pick for these UUIDs. Creates nothing that outlives the call. */
@@ -423,8 +426,8 @@ typedef struct SluiceRendererApi {
 
     SluiceResult (*info)(SluiceRenderer* renderer, SluiceRendererInfo* info);
 
-    /* Waits until no submitted frame is running, then replaces every shared image. On failure the renderer has no images
-     * and accepts only resize and destroy. */
+    /* Waits until no submitted frame is running, then replaces every shared image. On failure the renderer has no
+     * images and accepts only resize and destroy. */
     SluiceResult (*resize)(SluiceRenderer* renderer, uint32_t width, uint32_t height, SluiceError* error);
 
     /* Replace the particles for the frames submitted from now on; data is copied during the call. */
@@ -445,8 +448,8 @@ typedef struct SluiceRendererApi {
     SluiceResult (*timeline_wait)(SluiceRenderer* renderer, uint64_t value, uint64_t timeout_ns); /* renderer-to-host */
     SluiceResult (*timeline_value)(SluiceRenderer* renderer, uint32_t direction, uint64_t* value);
 
-    /* NATIVE: one fd per direction, value ignored. BINARY: one fd per (direction, value); for HOST_TO_RENDERER it must be
-     * asked for before submit_frame waits for that value. The fd becomes the caller's. */
+    /* NATIVE: one fd per direction, value ignored. BINARY: one fd per (direction, value); for HOST_TO_RENDERER it must
+     * be asked for before submit_frame waits for that value. The fd becomes the caller's. */
     SluiceResult (*timeline_export)(SluiceRenderer* renderer, uint32_t direction, uint64_t value, int32_t* fd,
                                     SluiceError* error);
 
@@ -464,4 +467,5 @@ typedef const SluiceRendererApi* (*SluiceRendererEntry)(uint32_t abi_version);
 #ifdef __cplusplus
 }
 #endif
+/* NOLINTEND(modernize-*,performance-enum-size,bugprone-macro-parentheses) */
 #endif
