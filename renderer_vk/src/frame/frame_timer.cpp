@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "frame/frame_timer.hpp"
+
+#include "device/structs.hpp"
+#include "sluice/trace.hpp"
+
+namespace sluice::vk {
+namespace {
+
+constexpr std::uint32_t kFrameBegin = 0;
+constexpr std::uint32_t kFrameEnd = 1;
+constexpr std::uint32_t kFirstPass = 2;
+constexpr std::uint32_t kQueries = kFirstPass + 2 * SLUICE_MAX_PASSES;
+
+}  // namespace
+
+std::uint64_t ticksToNanoseconds(std::uint64_t from, std::uint64_t to, std::uint32_t valid_bits, float period) {
+    const std::uint64_t mask = valid_bits >= 64 ? UINT64_MAX : (std::uint64_t{1} << valid_bits) - 1;
+    return static_cast<std::uint64_t>(static_cast<double>((to - from) & mask) * static_cast<double>(period));
+}
+
+FrameTimer::~FrameTimer() { device_.fn.vkDestroyQueryPool(device_.handle, pool_, nullptr); }
+
+Status FrameTimer::create() {
+    if (device_.timestamp_valid_bits == 0) {
+        return {};
+    }
+    auto info = vkStruct<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = kQueries;
+    if (const VkResult result = device_.fn.vkCreateQueryPool(device_.handle, &info, nullptr, &pool_);
+        result != VK_SUCCESS) {
+        return vulkanError(result, "vkCreateQueryPool");
+    }
+    return {};
+}
+
+void FrameTimer::stamp(VkCommandBuffer commands, std::uint32_t query) const {
+    if (pool_ != VK_NULL_HANDLE) {
+        device_.fn.vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, pool_, query);
+    }
+}
+
+void FrameTimer::frameBegin(VkCommandBuffer commands) {
+    labels_.clear();
+    measuring_ = false;
+    if (pool_ != VK_NULL_HANDLE) {
+        device_.fn.vkCmdResetQueryPool(commands, pool_, 0, kQueries);
+    }
+    stamp(commands, kFrameBegin);
+}
+
+void FrameTimer::frameEnd(VkCommandBuffer commands) { stamp(commands, kFrameEnd); }
+
+void FrameTimer::begin(VkCommandBuffer commands, const PassLabel& label) {
+    measuring_ = labels_.size() < SLUICE_MAX_PASSES;
+    if (measuring_) {
+        stamp(commands, kFirstPass + 2 * static_cast<std::uint32_t>(labels_.size()));
+        labels_.push_back(label);
+    }
+}
+
+void FrameTimer::end(VkCommandBuffer commands) {
+    if (measuring_) {
+        stamp(commands, kFirstPass + 2 * static_cast<std::uint32_t>(labels_.size()) - 1);
+        measuring_ = false;
+    }
+}
+
+std::uint64_t FrameTimer::monotonicOf(std::uint64_t ticks, std::uint64_t last_ticks) const {
+    const float period = device_.properties.limits.timestampPeriod;
+    // Without calibration the frame is placed so that it ends when it is found finished.
+    std::uint64_t reference_ticks = last_ticks;
+    std::uint64_t reference_ns = 0;
+    if (device_.features.calibrated_timestamps) {
+        std::array<VkCalibratedTimestampInfoEXT, 2> domains{};
+        domains[0] = vkStruct<VkCalibratedTimestampInfoEXT>(VK_STRUCTURE_TYPE_CALIBRATED_TIMESTAMP_INFO_EXT);
+        domains[0].timeDomain = VK_TIME_DOMAIN_DEVICE_EXT;
+        domains[1] = domains[0];
+        domains[1].timeDomain = VK_TIME_DOMAIN_CLOCK_MONOTONIC_EXT;
+        std::array<std::uint64_t, 2> now{};
+        std::uint64_t deviation = 0;
+        if (device_.fn.vkGetCalibratedTimestampsEXT(device_.handle, 2, domains.data(), now.data(), &deviation) ==
+            VK_SUCCESS) {
+            reference_ticks = now[0];
+            reference_ns = now[1];
+        }
+    }
+    if (reference_ns == 0) {
+        reference_ns = monotonicNanoseconds();
+    }
+    return reference_ns - ticksToNanoseconds(ticks, reference_ticks, device_.timestamp_valid_bits, period);
+}
+
+Result<FrameTimes> FrameTimer::read() const {
+    FrameTimes out;
+    out.passes.resize(labels_.size());
+    if (pool_ == VK_NULL_HANDLE) {
+        return out;
+    }
+    std::array<std::uint64_t, kQueries> ticks{};
+    const std::uint32_t count = kFirstPass + 2 * static_cast<std::uint32_t>(labels_.size());
+    const VkResult result =
+        device_.fn.vkGetQueryPoolResults(device_.handle, pool_, 0, count, count * sizeof(std::uint64_t), ticks.data(),
+                                         sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, "vkGetQueryPoolResults");
+    }
+    const float period = device_.properties.limits.timestampPeriod;
+    const auto span = [&](std::uint32_t begin, std::uint32_t end) {
+        return ticksToNanoseconds(ticks[begin], ticks[end], device_.timestamp_valid_bits, period);
+    };
+    const std::uint64_t start = monotonicOf(ticks[kFrameBegin], ticks[kFrameEnd]);
+    out.frame = {start, span(kFrameBegin, kFrameEnd)};
+    for (std::uint32_t i = 0; i < out.passes.size(); ++i) {
+        const std::uint32_t first = kFirstPass + 2 * i;
+        out.passes[i] = {start + span(kFrameBegin, first), span(first, first + 1)};
+    }
+    return out;
+}
+
+}  // namespace sluice::vk

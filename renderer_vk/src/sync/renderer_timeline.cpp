@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+#include "sync/renderer_timeline.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "device/structs.hpp"
+#include "sluice/format.hpp"
+#include "sluice/timeline.hpp"
+
+namespace sluice::vk {
+namespace {
+
+VkSemaphoreSubmitInfo submitInfo(VkSemaphore semaphore, std::uint64_t value) {
+    auto info = vkStruct<VkSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO);
+    info.semaphore = semaphore;
+    info.value = value;  // ignored for binary semaphores
+    info.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    return info;
+}
+
+VkResult waitFor(const Device& device, VkSemaphore semaphore, std::uint64_t value, std::uint64_t timeout_ns) {
+    auto info = vkStruct<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
+    info.semaphoreCount = 1;
+    info.pSemaphores = &semaphore;
+    info.pValues = &value;
+    return device.fn.vkWaitSemaphores(device.handle, &info, timeout_ns);
+}
+
+}  // namespace
+
+RendererTimeline::RendererTimeline(const Device& device, SluiceTimelineKind kind)
+    : device_(device), kind_(kind), binary_host_to_renderer_(device), binary_renderer_to_host_(device) {}
+
+Result<std::unique_ptr<RendererTimeline>> RendererTimeline::create(const Device& device, SluiceTimelineKind kind) {
+    auto timeline = std::make_unique<RendererTimeline>(device, kind);
+    const bool exportable = kind == SLUICE_TIMELINE_NATIVE;
+    Result<VkSemaphore> host =
+        createSemaphore(device, VK_SEMAPHORE_TYPE_TIMELINE, exportable, "timeline host to renderer");
+    if (!host) {
+        return host.error();
+    }
+    timeline->host_to_renderer_ = host.value();
+    Result<VkSemaphore> renderer =
+        createSemaphore(device, VK_SEMAPHORE_TYPE_TIMELINE, exportable, "timeline renderer to host");
+    if (!renderer) {
+        return renderer.error();
+    }
+    timeline->renderer_to_host_ = renderer.value();
+    return timeline;
+}
+
+RendererTimeline::~RendererTimeline() {
+    device_.fn.vkDestroySemaphore(device_.handle, host_to_renderer_, nullptr);
+    device_.fn.vkDestroySemaphore(device_.handle, renderer_to_host_, nullptr);
+}
+
+bool RendererTimeline::cpuSignals() const {
+    return kind_ == SLUICE_TIMELINE_BRIDGED || kind_ == SLUICE_TIMELINE_FINISH ||
+           kind_ == SLUICE_TIMELINE_UNSYNCHRONISED;
+}
+
+Result<SubmitSemaphores> RendererTimeline::forSubmit(std::uint64_t wait_value, std::uint64_t signal_value,
+                                                     bool skip_wait) {
+    SubmitSemaphores out;
+    if (!skip_wait && kind_ != SLUICE_TIMELINE_UNSYNCHRONISED) {
+        if (kind_ == SLUICE_TIMELINE_BINARY) {
+            VkSemaphore semaphore = binary_host_to_renderer_.find(wait_value);
+            if (semaphore == VK_NULL_HANDLE) {
+                return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("host value {}", wait_value),
+                             "no binary semaphore was asked for", "call timeline_export before submit_frame"};
+            }
+            out.waits.push_back(submitInfo(semaphore, 0));
+        } else {
+            if (kind_ == SLUICE_TIMELINE_FINISH) {
+                Result<std::uint64_t> now = value(SLUICE_HOST_TO_RENDERER);
+                if (!now) {
+                    return now.error();
+                }
+                if (now.value() < wait_value) {
+                    return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("host value {}", wait_value),
+                                 fmt::format("the counter is still at {}", now.value()),
+                                 "with the finish timeline, call timeline_signal before submit_frame"};
+                }
+            }
+            out.waits.push_back(submitInfo(host_to_renderer_, wait_value));
+        }
+    }
+    if (kind_ == SLUICE_TIMELINE_BINARY) {
+        Result<VkSemaphore> semaphore = binary_renderer_to_host_.obtain(signal_value);
+        if (!semaphore) {
+            return semaphore.error();
+        }
+        out.signals.push_back(submitInfo(semaphore.value(), 0));
+    }
+    out.signals.push_back(submitInfo(renderer_to_host_, signal_value));
+    return out;
+}
+
+void RendererTimeline::submitted(std::uint64_t wait_value, std::uint64_t signal_value, bool skip_wait) {
+    if (!skip_wait && kind_ != SLUICE_TIMELINE_UNSYNCHRONISED) {
+        last_wait_ = std::max(last_wait_, wait_value);
+    }
+    last_signal_ = std::max(last_signal_, signal_value);
+}
+
+Status RendererTimeline::signal(std::uint64_t value) {
+    if (!cpuSignals()) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "timeline_signal",
+                     fmt::format("a {} timeline is signalled by the GL command stream", toString(kind_)), ""};
+    }
+    const std::lock_guard guard(signal_lock_);
+    if (value > signalled_ && value <= forced_) {
+        signalled_ = value;  // the promise came after drain() had kept it
+        return {};
+    }
+    if (value <= signalled_) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("timeline_signal({})", value),
+                     fmt::format("the counter is already at {}", signalled_), "values only ever increase"};
+    }
+    auto info = vkStruct<VkSemaphoreSignalInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO);
+    info.semaphore = host_to_renderer_;
+    info.value = value;
+    if (const VkResult result = device_.fn.vkSignalSemaphore(device_.handle, &info); result != VK_SUCCESS) {
+        return vulkanError(result, fmt::format("vkSignalSemaphore({})", value));
+    }
+    signalled_ = value;
+    return {};
+}
+
+SluiceResult RendererTimeline::wait(std::uint64_t value, std::uint64_t timeout_ns) const {
+    const VkResult result = waitFor(device_, renderer_to_host_, value, timeout_ns);
+    if (result == VK_SUCCESS) {
+        return SLUICE_OK;
+    }
+    return result == VK_TIMEOUT ? SLUICE_TIMEOUT : vulkanError(result, "").code;
+}
+
+Result<std::uint64_t> RendererTimeline::value(SluiceDirection direction) const {
+    const bool from_host = direction == SLUICE_HOST_TO_RENDERER;
+    const bool inferred = from_host && kind_ == SLUICE_TIMELINE_BINARY;
+    std::uint64_t value = 0;
+    const VkResult result = device_.fn.vkGetSemaphoreCounterValue(
+        device_.handle, from_host && !inferred ? host_to_renderer_ : renderer_to_host_, &value);
+    if (result != VK_SUCCESS) {
+        return vulkanError(result, "vkGetSemaphoreCounterValue");
+    }
+    if (inferred && value > 0) {
+        value = gbufferWritten(value);
+    }
+    return value;
+}
+
+Result<UniqueFd> RendererTimeline::exportFd(SluiceDirection direction, std::uint64_t value) {
+    const bool from_host = direction == SLUICE_HOST_TO_RENDERER;
+    if (kind_ == SLUICE_TIMELINE_NATIVE) {
+        return exportSemaphore(device_, from_host ? host_to_renderer_ : renderer_to_host_);
+    }
+    if (kind_ == SLUICE_TIMELINE_BINARY) {
+        return (from_host ? binary_host_to_renderer_ : binary_renderer_to_host_).exportFd(value);
+    }
+    return Error{SLUICE_ERROR_INVALID_ARGUMENT, "timeline_export",
+                 fmt::format("a {} timeline has nothing to export", toString(kind_)),
+                 "use timeline_signal and timeline_wait"};
+}
+
+void RendererTimeline::retireFrame(std::uint64_t frame) {
+    binary_host_to_renderer_.retireThrough(gbufferWritten(frame));
+    binary_renderer_to_host_.retireThrough(fluidWritten(frame));
+}
+
+void RendererTimeline::force(std::uint64_t value) {
+    const std::lock_guard guard(signal_lock_);
+    auto info = vkStruct<VkSemaphoreSignalInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO);
+    info.semaphore = host_to_renderer_;
+    info.value = value;
+    if (value > std::max(signalled_, forced_) &&
+        device_.fn.vkSignalSemaphore(device_.handle, &info) == VK_SUCCESS) {
+        forced_ = value;
+    }
+}
+
+bool RendererTimeline::drain(std::uint64_t grace_ns) {
+    if (last_signal_ == 0 || wait(last_signal_, grace_ns) == SLUICE_OK) {
+        return device_.fn.vkQueueWaitIdle(device_.queue) == VK_SUCCESS;
+    }
+    Result<std::uint64_t> host = value(SLUICE_HOST_TO_RENDERER);
+    if (!host) {
+        return false;
+    }
+    const bool waits_for_host = host.value() < last_wait_;
+    if (waits_for_host && kind_ == SLUICE_TIMELINE_BINARY) {
+        return false;
+    }
+    if (waits_for_host) {
+        device_.log(SLUICE_LOG_WARNING,
+                    fmt::format("host timeline: value {} was promised and never came; moved on from {} so that "
+                                "submitted frames end",
+                                last_wait_, host.value()));
+        force(last_wait_);
+    }
+    // Slow work is no fault: without an unkept promise it ends, however long it takes.
+    return device_.fn.vkQueueWaitIdle(device_.queue) == VK_SUCCESS;
+}
+
+}  // namespace sluice::vk

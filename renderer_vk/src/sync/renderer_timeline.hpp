@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// The renderer's end of the two counters, for every kind of timeline.
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "device/device.hpp"
+#include "sluice/fd.hpp"
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+#include "sync/binary_pool.hpp"
+
+namespace sluice::vk {
+
+/// Semaphores of one submission.
+struct SubmitSemaphores {
+    std::vector<VkSemaphoreSubmitInfo> waits, signals;
+};
+
+/// Each direction is a Vulkan timeline semaphore. NATIVE exports both; BINARY adds one exported binary semaphore per
+/// value and keeps the renderer-to-host timeline for its own bookkeeping; the other kinds use them from the CPU.
+/// signal, wait and value may be called from any thread, the rest on the renderer's thread only.
+class RendererTimeline {
+  public:
+    static Result<std::unique_ptr<RendererTimeline>> create(const Device& device, SluiceTimelineKind kind);
+
+    RendererTimeline(const Device& device, SluiceTimelineKind kind);
+    RendererTimeline(const RendererTimeline&) = delete;
+    RendererTimeline& operator=(const RendererTimeline&) = delete;
+    /// The queue must be done with every submission; see drain().
+    ~RendererTimeline();
+
+    [[nodiscard]] SluiceTimelineKind kind() const { return kind_; }
+
+    /// What the submission of a frame waits for and signals. With `skip_wait`, or UNSYNCHRONISED, it waits for nothing.
+    /// BINARY fails if the host has not asked for the semaphore of `wait_value`; FINISH if the host has not signalled it,
+    /// because the wait for the queue that follows would never end.
+    [[nodiscard]] Result<SubmitSemaphores> forSubmit(std::uint64_t wait_value, std::uint64_t signal_value,
+                                                     bool skip_wait);
+    /// The submission that forSubmit was asked for has reached the queue.
+    void submitted(std::uint64_t wait_value, std::uint64_t signal_value, bool skip_wait);
+
+    /// The host-to-renderer counter reaches `value` now. Must increase. Only for kinds that the CPU signals.
+    [[nodiscard]] Status signal(std::uint64_t value);
+    /// Blocks until the renderer-to-host counter has reached `value`: OK, TIMEOUT or a failure.
+    [[nodiscard]] SluiceResult wait(std::uint64_t value, std::uint64_t timeout_ns) const;
+    /// The counter now. BINARY knows the host's only as far as finished frames prove it.
+    [[nodiscard]] Result<std::uint64_t> value(SluiceDirection direction) const;
+    [[nodiscard]] Result<UniqueFd> exportFd(SluiceDirection direction, std::uint64_t value);
+
+    /// Frame `frame` is done, and so is the host with what was exported for it: binary semaphores are destroyed.
+    void retireFrame(std::uint64_t frame);
+
+    /// Waits until every submission has finished. If one waits for a host value that does not come within `grace_ns`, a
+    /// CPU-signalled timeline is moved on by force, with a warning in the log; false if the queue still does not get
+    /// done (an unsignalled binary semaphore cannot be helped), or the device is lost.
+    [[nodiscard]] bool drain(std::uint64_t grace_ns);
+
+  private:
+    [[nodiscard]] bool cpuSignals() const;
+    void force(std::uint64_t value);
+
+    const Device& device_;
+    SluiceTimelineKind kind_;
+    VkSemaphore host_to_renderer_ = VK_NULL_HANDLE;
+    VkSemaphore renderer_to_host_ = VK_NULL_HANDLE;
+    BinaryPool binary_host_to_renderer_;
+    BinaryPool binary_renderer_to_host_;
+    std::uint64_t last_wait_ = 0;    ///< highest host value that a submission waits for
+    std::uint64_t last_signal_ = 0;  ///< highest renderer value that a submission will signal
+    std::mutex signal_lock_;         ///< guards signalled_ and forced_
+    std::uint64_t signalled_ = 0;
+    std::uint64_t forced_ = 0;       ///< up to here drain() has signalled for the host; late signals are accepted
+};
+
+}  // namespace sluice::vk
