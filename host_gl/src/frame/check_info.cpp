@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "frame/check_info.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "sluice/format.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+constexpr std::uint32_t kMaxExtent = 16384;  // of SluiceCreateInfo
+
+Error brokenInfo(std::string detail) {
+    return {SLUICE_ERROR_INTERNAL, "renderer info", std::move(detail), "the plugin is broken"};
+}
+
+Status checkSet(const SluiceRendererInfo& info, const ImageTable& images, std::uint32_t set, std::uint32_t needed) {
+    for (std::uint32_t role = 0; role < SLUICE_IMAGE_CANARY; ++role) {
+        const auto name = toString(static_cast<SluiceImageRole>(role));
+        const ImportedImage* image = images.find(role, set);
+        if (image == nullptr) {
+            if ((needed & SLUICE_ROLE_BIT(role)) != 0 || info.formats[role] != SLUICE_FORMAT_NONE) {
+                return brokenInfo(fmt::format("{} of set {} was never shared", name, set));
+            }
+            continue;
+        }
+        const SluiceImageExport& found = image->description();
+        if (found.format != info.formats[role] || found.width != info.width || found.height != info.height) {
+            return brokenInfo(fmt::format("{} of set {}: expected {}x{} in format {}, shared {}x{} in format {}", name,
+                                          set, info.width, info.height, info.formats[role], found.width, found.height,
+                                          found.format));
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+Status checkExtent(std::uint32_t width, std::uint32_t height) {
+    if (width == 0 || height == 0 || width > kMaxExtent || height > kMaxExtent) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "size of the shared images",
+                     fmt::format("expected 1..{} a side, found {}x{}", kMaxExtent, width, height), ""};
+    }
+    return {};
+}
+
+Status checkConfig(const FluidHostConfig& config) {
+    if (config.image_sets == 0 || config.image_sets > SLUICE_MAX_IMAGE_SETS) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "image_sets",
+                     fmt::format("expected 1..{}, found {}", SLUICE_MAX_IMAGE_SETS, config.image_sets), ""};
+    }
+    return checkExtent(config.width, config.height);
+}
+
+Status checkInfo(const SluiceRendererInfo& info, const FluidHostConfig& config, const ImageTable& images) {
+    if (info.image_sets != config.image_sets || info.width != config.width || info.height != config.height) {
+        return brokenInfo(fmt::format("expected {} sets of {}x{}, found {} of {}x{}", config.image_sets, config.width,
+                                      config.height, info.image_sets, info.width, info.height));
+    }
+    if (info.host_depth_encoding != SLUICE_DEPTH_WINDOW && info.host_depth_encoding != SLUICE_DEPTH_LINEAR) {
+        return brokenInfo(fmt::format("{} is no depth encoding", info.host_depth_encoding));
+    }
+    const std::uint32_t needed = SLUICE_ROLE_BIT(SLUICE_IMAGE_HOST_DEPTH) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_COLOUR) |
+                                 SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_DEPTH) | config.outputs;
+    for (std::uint32_t set = 0; set < info.image_sets; ++set) {
+        if (Status status = checkSet(info, images, set, needed); !status) {
+            return status;
+        }
+    }
+    return {};
+}
+
+}  // namespace sluice::host

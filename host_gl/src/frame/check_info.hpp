@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+// Pure checks of what a caller asks for and of what a renderer says that it did.
+#pragma once
+
+#include <cstdint>
+
+#include "share/image_table.hpp"
+#include "sluice/host_gl/fluid_host.hpp"
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::host {
+
+[[nodiscard]] Status checkExtent(std::uint32_t width, std::uint32_t height);
+[[nodiscard]] Status checkConfig(const FluidHostConfig& config);
+/// The renderer's account must agree with what was asked for and with the images that it shared.
+[[nodiscard]] Status checkInfo(const SluiceRendererInfo& info, const FluidHostConfig& config, const ImageTable& images);
+
+}  // namespace sluice::host

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#include "frame/renderer.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <string_view>
+#include <thread>
+
+#include "share/sized.hpp"
+#include "sluice/trace.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+// Short against a frame, long against a poll.
+constexpr std::chrono::microseconds kPollInterval{200};
+
+Status statusOf(std::string_view call, SluiceResult result, const SluiceError& said) {
+    if (result != SLUICE_OK) {
+        return rendererError(call, result, said);
+    }
+    return {};
+}
+
+}  // namespace
+
+Result<Renderer> Renderer::create(const SluiceRendererApi& api, const SluiceHostServices& services,
+                                  const SluiceCreateInfo& info) {
+    SluiceError said = sized<SluiceError>();
+    SluiceRenderer* handle = nullptr;
+    const SluiceResult result = api.create(&services, &info, &handle, &said);
+    if (result != SLUICE_OK) {
+        return rendererError("create", result, said);
+    }
+    if (handle == nullptr) {
+        return Error{SLUICE_ERROR_INTERNAL, "renderer create", "reported success but returned no renderer",
+                     "the plugin is broken"};
+    }
+    Renderer renderer;
+    renderer.api_ = &api;
+    renderer.handle_ = handle;
+    return renderer;
+}
+
+Renderer::~Renderer() {
+    if (handle_ != nullptr) {
+        api_->destroy(handle_);
+    }
+}
+
+Result<SluiceRendererInfo> Renderer::info() const {
+    SluiceRendererInfo info = sized<SluiceRendererInfo>();
+    if (const SluiceResult result = api_->info(handle_, &info); result != SLUICE_OK) {
+        return rendererError("info", result, sized<SluiceError>());
+    }
+    return info;
+}
+
+Status Renderer::resize(std::uint32_t width, std::uint32_t height) const {
+    SluiceError said = sized<SluiceError>();
+    const SluiceResult result = api_->resize(handle_, width, height, &said);
+    return statusOf("resize", result, said);
+}
+
+Status Renderer::setParticles(const SluiceParticles& particles) const {
+    SluiceError said = sized<SluiceError>();
+    const SluiceResult result = api_->set_particles(handle_, &particles, &said);
+    return statusOf("set_particles", result, said);
+}
+
+Status Renderer::setEnvironment(const SluiceEnvironment* environment) const {
+    SluiceError said = sized<SluiceError>();
+    const SluiceResult result = api_->set_environment(handle_, environment, &said);
+    return statusOf("set_environment", result, said);
+}
+
+Status Renderer::submit(const SluiceFrame& frame) const {
+    SluiceError said = sized<SluiceError>();
+    const SluiceResult result = api_->submit_frame(handle_, &frame, &said);
+    return statusOf("submit_frame", result, said);
+}
+
+Result<SluiceFrameStats> Renderer::stats(std::uint64_t frame, std::uint64_t timeout_ns) const {
+    const std::uint64_t begin = monotonicNanoseconds();
+    for (;;) {
+        SluiceFrameStats stats = sized<SluiceFrameStats>();
+        const SluiceResult result = api_->poll(handle_, frame, &stats);
+        if (result == SLUICE_OK) {
+            return stats;
+        }
+        if (result != SLUICE_NOT_READY) {
+            return rendererError("poll", result, sized<SluiceError>());
+        }
+        if (monotonicNanoseconds() - begin >= timeout_ns) {
+            return Error{SLUICE_TIMEOUT, "renderer poll",
+                         fmt::format("frame {} did not finish within {:.3f} s", frame,
+                                     static_cast<double>(timeout_ns) * 1e-9),
+                         "raise wait_timeout_ns"};
+        }
+        std::this_thread::sleep_for(kPollInterval);
+    }
+}
+
+}  // namespace sluice::host

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// The GL half of the canary round trip.
+#pragma once
+
+#include <cstdint>
+
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::host {
+
+/// Imports `image`, compares every texel with canaryPattern(format, seed), writes canaryPattern(format, seed + 1), finishes
+/// and lets go of the image. fd as for importImage. A differing texel is SLUICE_ERROR_CANARY, with the fd untouched.
+[[nodiscard]] Status runCanary(const SluiceImageExport& image, std::uint32_t seed);
+
+}  // namespace sluice::host

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// BINARY: one imported binary semaphore per value (GL_EXT_semaphore_fd), never reused: reuse has stalled drivers.
+#include <epoxy/gl.h>
+
+#include <memory>
+#include <utility>
+
+#include "timeline/backends.hpp"
+#include "timeline/gl_semaphore.hpp"
+#include "timeline/timeline_events.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+class BinaryTimeline final : public HostTimeline {
+  public:
+    explicit BinaryTimeline(const TimelineDeps& deps) : deps_(deps) {}
+
+    [[nodiscard]] SluiceTimelineKind kind() const override { return SLUICE_TIMELINE_BINARY; }
+
+    [[nodiscard]] Status signal(std::uint64_t value, std::span<const std::uint32_t> textures) override {
+        // Nobody waits for even values (docs/protocol.md), and a binary semaphore must be waited for exactly once.
+        if (value % 2 == 0) {
+            glFlush();
+            return {};
+        }
+        const std::uint64_t begin = traceClock(deps_.trace);
+        Result<GlSemaphore> semaphore = importValue(SLUICE_HOST_TO_RENDERER, value);
+        if (!semaphore) {
+            return semaphore.error();
+        }
+        semaphore.value().signal(textures);
+        traceStep(deps_.trace, SLUICE_TRACE_SIGNAL, SLUICE_TRACK_HOST_CPU, SLUICE_HOST_TO_RENDERER, value, begin,
+                  "signal renderer");
+        return {};
+    }
+
+    [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t /*timeout_ns*/,
+                              std::span<const std::uint32_t> textures) override {
+        // The GL stream is in order: what has waited for a higher value has waited for this one.
+        if (value <= waited_) {
+            return {};
+        }
+        const std::uint64_t begin = traceClock(deps_.trace);
+        Result<GlSemaphore> semaphore = importValue(SLUICE_RENDERER_TO_HOST, value);
+        if (!semaphore) {
+            return semaphore.error();
+        }
+        semaphore.value().wait(textures);
+        waited_ = value;
+        traceStep(deps_.trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
+                  "wait for renderer");
+        return {};
+    }
+
+  private:
+    [[nodiscard]] Result<GlSemaphore> importValue(SluiceDirection direction, std::uint64_t value) const {
+        Result<UniqueFd> fd = exportTimeline(deps_, direction, value);
+        if (!fd) {
+            return fd.error();
+        }
+        return GlSemaphore::import(std::move(fd).value(), nullptr);
+    }
+
+    TimelineDeps deps_;
+    std::uint64_t waited_ = 0;
+};
+
+}  // namespace
+
+Result<std::unique_ptr<HostTimeline>> makeBinaryTimeline(const TimelineDeps& deps) {
+    for (const char* extension : {"GL_EXT_semaphore", "GL_EXT_semaphore_fd"}) {
+        if (!epoxy_has_gl_extension(extension)) {
+            return Error{SLUICE_ERROR_UNSUPPORTED, "timeline binary",
+                         std::string("the GL driver has no ") + extension, "request timeline 'auto' or 'bridged'"};
+        }
+    }
+    return std::unique_ptr<HostTimeline>(std::make_unique<BinaryTimeline>(deps));
+}
+
+}  // namespace sluice::host

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+// The wait of every backend that blocks on the CPU.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "sluice/result.hpp"
+#include "timeline/host_timeline.hpp"
+
+namespace sluice::host {
+
+/// Blocks until the renderer-to-host counter reaches `value`; SLUICE_TIMEOUT after `timeout_ns`. Gives up early, as if the
+/// time had passed, soon after `hopeless` (may be nullptr) becomes true.
+[[nodiscard]] Status waitOnCpu(const TimelineDeps& deps, std::uint64_t value, std::uint64_t timeout_ns,
+                               const std::atomic<bool>* hopeless);
+/// Raises the host-to-renderer counter from the CPU and records it on `track`.
+[[nodiscard]] Status signalFromCpu(const TimelineDeps& deps, std::uint64_t value, SluiceTrack track);
+
+}  // namespace sluice::host

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+// FINISH: the GPU is idle before anything is promised. The baseline that the others are compared with.
+#include <epoxy/gl.h>
+
+#include <memory>
+
+#include "timeline/backends.hpp"
+#include "timeline/cpu_wait.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+class FinishTimeline final : public HostTimeline {
+  public:
+    explicit FinishTimeline(const TimelineDeps& deps) : deps_(deps) {}
+
+    [[nodiscard]] SluiceTimelineKind kind() const override { return SLUICE_TIMELINE_FINISH; }
+
+    [[nodiscard]] Status signal(std::uint64_t value, std::span<const std::uint32_t> /*textures*/) override {
+        glFinish();
+        return signalFromCpu(deps_, value, SLUICE_TRACK_HOST_CPU);
+    }
+
+    [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t timeout_ns,
+                              std::span<const std::uint32_t> /*textures*/) override {
+        return waitOnCpu(deps_, value, timeout_ns, nullptr);
+    }
+
+  private:
+    TimelineDeps deps_;
+};
+
+}  // namespace
+
+std::unique_ptr<HostTimeline> makeFinishTimeline(const TimelineDeps& deps) {
+    return std::make_unique<FinishTimeline>(deps);
+}
+
+}  // namespace sluice::host

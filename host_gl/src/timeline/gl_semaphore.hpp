@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// A GL semaphore imported from a file descriptor (GL_EXT_semaphore_fd).
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sluice/fd.hpp"
+#include "sluice/result.hpp"
+#include "timeline/host_timeline.hpp"
+
+namespace sluice::host {
+
+/// Functions of GL_NV_timeline_semaphore, which libepoxy does not know yet.
+struct NvTimelineFunctions {
+    void (*create)(std::int32_t count, std::uint32_t* semaphores);
+    void (*parameteriv)(std::uint32_t semaphore, std::uint32_t name, const std::int32_t* values);
+};
+/// Empty if the driver lacks the extension or either function.
+[[nodiscard]] std::optional<NvTimelineFunctions> loadNvTimelineFunctions();
+
+/// Owns one imported semaphore. Move-only; freed with the GL context current.
+class GlSemaphore {
+  public:
+    GlSemaphore() = default;
+    GlSemaphore(GlSemaphore&& other) noexcept : semaphore_(std::exchange(other.semaphore_, 0)) {}
+    GlSemaphore& operator=(GlSemaphore&& other) noexcept {
+        std::swap(semaphore_, other.semaphore_);
+        return *this;
+    }
+    GlSemaphore(const GlSemaphore&) = delete;
+    GlSemaphore& operator=(const GlSemaphore&) = delete;
+    ~GlSemaphore();
+
+    /// A binary semaphore, or with `timeline` a timeline. Takes the descriptor; on failure it is closed.
+    [[nodiscard]] static Result<GlSemaphore> import(UniqueFd fd, const NvTimelineFunctions* timeline);
+
+    /// For timelines: the value of the next signal or wait.
+    void setValue(std::uint64_t value) const;
+    /// Every texture is in GL_LAYOUT_GENERAL_EXT on both sides. Flushes: only newer drivers do so by themselves.
+    void signal(std::span<const std::uint32_t> textures) const;
+    void wait(std::span<const std::uint32_t> textures) const;
+
+  private:
+    std::uint32_t semaphore_ = 0;
+};
+
+/// Asks the renderer for the descriptor of (direction, value).
+[[nodiscard]] Result<UniqueFd> exportTimeline(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value);
+
+}  // namespace sluice::host

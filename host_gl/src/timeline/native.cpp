@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+// NATIVE: one imported Vulkan timeline per direction (GL_NV_timeline_semaphore). Waits and signals are GPU commands.
+#include <epoxy/gl.h>
+
+#include <memory>
+#include <utility>
+
+#include "timeline/backends.hpp"
+#include "timeline/gl_semaphore.hpp"
+#include "timeline/timeline_events.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+class NativeTimeline final : public HostTimeline {
+  public:
+    NativeTimeline(const TimelineDeps& deps, GlSemaphore to_renderer, GlSemaphore to_host)
+        : deps_(deps), to_renderer_(std::move(to_renderer)), to_host_(std::move(to_host)) {}
+
+    [[nodiscard]] SluiceTimelineKind kind() const override { return SLUICE_TIMELINE_NATIVE; }
+
+    [[nodiscard]] Status signal(std::uint64_t value, std::span<const std::uint32_t> textures) override {
+        const std::uint64_t begin = traceClock(deps_.trace);
+        to_renderer_.setValue(value);
+        to_renderer_.signal(textures);
+        traceStep(deps_.trace, SLUICE_TRACE_SIGNAL, SLUICE_TRACK_HOST_CPU, SLUICE_HOST_TO_RENDERER, value, begin,
+                  "signal renderer");
+        return {};
+    }
+
+    [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t /*timeout_ns*/,
+                              std::span<const std::uint32_t> textures) override {
+        const std::uint64_t begin = traceClock(deps_.trace);
+        to_host_.setValue(value);
+        to_host_.wait(textures);
+        traceStep(deps_.trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
+                  "wait for renderer");
+        return {};
+    }
+
+  private:
+    TimelineDeps deps_;
+    GlSemaphore to_renderer_, to_host_;
+};
+
+Result<GlSemaphore> importDirection(const TimelineDeps& deps, SluiceDirection direction,
+                                    const NvTimelineFunctions& functions) {
+    Result<UniqueFd> fd = exportTimeline(deps, direction, 0);
+    if (!fd) {
+        return fd.error();
+    }
+    return GlSemaphore::import(std::move(fd).value(), &functions);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<HostTimeline>> makeNativeTimeline(const TimelineDeps& deps) {
+    const std::optional<NvTimelineFunctions> functions = loadNvTimelineFunctions();
+    if (!functions || !epoxy_has_gl_extension("GL_EXT_semaphore") || !epoxy_has_gl_extension("GL_EXT_semaphore_fd")) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "timeline native",
+                     functions ? "the GL driver has no GL_EXT_semaphore_fd"
+                               : "the GL driver has no GL_NV_timeline_semaphore",
+                     "request timeline 'auto' or 'bridged'"};
+    }
+    Result<GlSemaphore> to_renderer = importDirection(deps, SLUICE_HOST_TO_RENDERER, *functions);
+    if (!to_renderer) {
+        return to_renderer.error();
+    }
+    Result<GlSemaphore> to_host = importDirection(deps, SLUICE_RENDERER_TO_HOST, *functions);
+    if (!to_host) {
+        return to_host.error();
+    }
+    return std::unique_ptr<HostTimeline>(std::make_unique<NativeTimeline>(deps, std::move(to_renderer).value(),
+                                                                          std::move(to_host).value()));
+}
+
+}  // namespace sluice::host
