@@ -1,16 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "passes/fluid_recorder.hpp"
 
-#include <array>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cassert>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "device/one_shot.hpp"
 #include "passes/context.hpp"
 #include "passes/echo.hpp"
+#include "passes/filter.hpp"
 #include "passes/frame_constants.hpp"
+#include "passes/shade.hpp"
+#include "passes/splat.hpp"
+#include "passes/surface.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::vk {
@@ -21,6 +28,12 @@ struct FluidRecorder::State {
     const Device& device;
     std::vector<FrameArena> arenas;
     PassImages images;
+    SplatDepthPass splat_depth;
+    FilterPass filter;
+    NormalsPass normals;
+    SplatThicknessPass splat_thickness;
+    BlurThicknessPass blur_thickness;
+    ShadePass shade;
     EchoPass echo;
     ClearPass clear;
     std::optional<Plan> plan;
@@ -54,6 +67,42 @@ Result<Image> makePlaceholder(const Device& device) {
     return image;
 }
 
+Result<Image> makeOwn(const Device& device, const PlannedImage& planned) {
+    const FormatInfo* format = findFormat(static_cast<std::uint32_t>(planned.format));
+    assert(format != nullptr);
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    if (planned.id == PlanImage::DepthA || planned.id == PlanImage::Thickness) {
+        usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    }
+    return Image::create(device, {static_cast<VkFormat>(format->vk_format), planned.width, planned.height, usage, false,
+                                  toString(planned.id).data()});
+}
+
+Result<Image> makeEnvironment(const Device& device, const SluiceEnvironment& environment) {
+    const std::uint32_t limit = device.properties.limits.maxImageDimension2D;
+    if (environment.width == 0 || environment.height == 0 || environment.width > limit || environment.height > limit ||
+        environment.pixels == nullptr) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "environment map",
+                     fmt::format("{}x{} pixels cannot be uploaded", environment.width, environment.height),
+                     fmt::format("give 1 to {} pixels each way", limit)};
+    }
+    const std::size_t pixels = std::size_t{environment.width} * environment.height;
+    std::vector<float> texels(pixels * 4, 1.0F);
+    for (std::size_t index = 0; index < pixels; ++index) {
+        std::copy_n(environment.pixels + index * 3, 3, texels.data() + index * 4);
+    }
+    auto image = Image::create(device, {VK_FORMAT_R32G32B32A32_SFLOAT, environment.width, environment.height,
+                                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, false,
+                                        "environment"});
+    if (!image) {
+        return image;
+    }
+    if (Status status = uploadImage(device, image.value(), std::as_bytes(std::span(texels))); !status) {
+        return status.error();
+    }
+    return image;
+}
+
 }  // namespace
 
 FluidRecorder::FluidRecorder(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -76,6 +125,11 @@ Result<FluidRecorder> FluidRecorder::create(const Device& device) {
     }
     for (const Status& status : {take(makePlaceholder(device), state->images.nothing_to_read),
                                  take(makePlaceholder(device), state->images.nothing_to_write),
+                                 take(SplatDepthPass::create(device), state->splat_depth),
+                                 take(FilterPass::create(device), state->filter),
+                                 take(NormalsPass::create(device), state->normals),
+                                 take(SplatThicknessPass::create(device), state->splat_thickness),
+                                 take(BlurThicknessPass::create(device), state->blur_thickness),
                                  take(EchoPass::create(device), state->echo),
                                  take(ClearPass::create(device), state->clear)}) {
         if (!status) {
@@ -86,11 +140,55 @@ Result<FluidRecorder> FluidRecorder::create(const Device& device) {
 }
 
 Status FluidRecorder::prepare(const Plan& plan) {
+    if (state_->plan && *state_->plan == plan) {
+        return {};
+    }
+    if (findPass(plan, PassId::Shade) != nullptr) {
+        if (Status status = state_->shade.prepare(state_->device, plan); !status) {
+            return status;
+        }
+    }
+    if (!state_->plan || state_->plan->images != plan.images) {
+        std::vector<std::pair<PlanImage, Image>> made;
+        for (const PlannedImage& planned : plan.images) {
+            auto image = makeOwn(state_->device, planned);
+            if (!image) {
+                return image.error();
+            }
+            made.emplace_back(planned.id, std::move(image).value());
+        }
+        state_->device.fn.vkDeviceWaitIdle(state_->device.handle);
+        for (std::size_t index = 0; index < state_->images.own.size(); ++index) {
+            if (static_cast<PlanImage>(index) != PlanImage::Environment) {
+                state_->images.own[index] = Image();
+            }
+        }
+        for (auto& [id, image] : made) {
+            state_->images.own[static_cast<std::size_t>(id)] = std::move(image);
+        }
+    }
     state_->plan = plan;
     return {};
 }
 
-Status FluidRecorder::setEnvironment(const SluiceEnvironment* /*environment*/) { return {}; }
+Status FluidRecorder::setEnvironment(const SluiceEnvironment* environment) {
+    Image map;
+    if (environment != nullptr) {
+        auto made = makeEnvironment(state_->device, *environment);
+        if (!made) {
+            return made.error();
+        }
+        map = std::move(made).value();
+    }
+    state_->device.fn.vkDeviceWaitIdle(state_->device.handle);
+    state_->images.own[static_cast<std::size_t>(PlanImage::Environment)] = std::move(map);
+    return {};
+}
+
+const Image* FluidRecorder::image(PlanImage id) const {
+    const Image& image = state_->images[id];
+    return image ? &image : nullptr;
+}
 
 void FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan,
                            const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer) {
@@ -102,13 +200,31 @@ void FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, c
     openImages(context);
     for (const PlannedPass& pass : plan.passes) {
         switch (pass.id) {
+            case PassId::SplatDepth:
+                state_->splat_depth.record(context);
+                break;
+            case PassId::Filter:
+                state_->filter.record(context);
+                break;
+            case PassId::Normals:
+                state_->normals.record(context);
+                break;
+            case PassId::SplatThickness:
+                state_->splat_thickness.record(context);
+                break;
+            case PassId::BlurThickness:
+                state_->blur_thickness.record(context);
+                break;
+            case PassId::Shade:
+                state_->shade.record(context);
+                break;
             case PassId::Echo:
                 state_->echo.record(context);
                 break;
             case PassId::Clear:
                 state_->clear.record(context);
                 break;
-            default:
+            case PassId::Count:
                 break;
         }
     }

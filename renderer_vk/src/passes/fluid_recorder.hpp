@@ -6,6 +6,7 @@
 
 #include "device/device.hpp"
 #include "frame/pass_context.hpp"
+#include "memory/image.hpp"
 #include "plan/plan.hpp"
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
@@ -33,6 +34,9 @@ class FluidRecorder {
     /// shaders in GENERAL and are left so; their last writes are by compute.
     void record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan, const FrameTargets& targets,
                 const ParticleBuffers& particles, PassTimer& timer);
+    /// One of the renderer's own images, in GENERAL once recorded work has finished, for tests and captures; null if the
+    /// plan has none. Valid until the next prepare.
+    [[nodiscard]] const Image* image(PlanImage id) const;
 
   private:
     struct State;

@@ -6,8 +6,12 @@ list(APPEND SLUICE_VK_SOURCES
     src/passes/arena.cpp
     src/passes/context.cpp
     src/passes/echo.cpp
+    src/passes/filter.cpp
     src/passes/fluid_recorder.cpp
     src/passes/frame_constants.cpp
     src/passes/pipeline.cpp
+    src/passes/shade.cpp
+    src/passes/splat.cpp
+    src/passes/surface.cpp
 )
 list(APPEND SLUICE_VK_LIBS sluice_shaders)

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "passes/surface.hpp"
+
+#include <shaders/blur_thickness_comp.h>
+#include <shaders/normals_comp.h>
+
+#include <array>
+#include <utility>
+
+namespace sluice::vk {
+namespace {
+
+constexpr std::uint32_t kTile = 16;
+
+Result<Pipeline> blurPipeline(const Device& device, const char* name, std::uint32_t along) {
+    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+                                  VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    const std::array<std::uint32_t, 1> constants{along};
+    return createCompute(device, {name, blur_thickness_comp, bindings, 0, constants});
+}
+
+}  // namespace
+
+Result<NormalsPass> NormalsPass::create(const Device& device) {
+    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+                                  VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    auto pipeline = createCompute(device, {"normals", normals_comp, bindings, 0, {}});
+    if (!pipeline) {
+        return pipeline.error();
+    }
+    return NormalsPass{std::move(pipeline).value()};
+}
+
+void NormalsPass::record(const PassContext& context) const {
+    context.timer.begin(context.commands, {"normals", context.pixels(), context.pixels() * (4 + 8), false, 1});
+    const std::array bindings{uniform(context.arena.constants()), sampled(context.images[context.plan.surface].view()),
+                              storage(context.images[PlanImage::Normal].view())};
+    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, bindings);
+    dispatchOver(context, context.plan.width, context.plan.height, kTile, kTile);
+    context.timer.end(context.commands);
+    betweenDispatches(context);
+}
+
+Result<BlurThicknessPass> BlurThicknessPass::create(const Device& device) {
+    auto x = blurPipeline(device, "blur_thickness_x", 0);
+    if (!x) {
+        return x.error();
+    }
+    auto y = blurPipeline(device, "blur_thickness_y", 1);
+    if (!y) {
+        return y.error();
+    }
+    return BlurThicknessPass{std::move(x).value(), std::move(y).value()};
+}
+
+void BlurThicknessPass::record(const PassContext& context) const {
+    const Image& image = context.images[PlanImage::Thickness];
+    const std::uint64_t texels = std::uint64_t{image.width()} * image.height();
+    const auto step = [&](const Pipeline& pipeline, PlanImage from, PlanImage to) {
+        const std::array bindings{uniform(context.arena.constants()), sampled(context.images[from].view()),
+                                  sampled(context.images[context.plan.surface].view()),
+                                  storage(context.images[to].view())};
+        context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, bindings);
+        dispatchOver(context, image.width(), image.height(), kTile, kTile);
+        betweenDispatches(context);
+    };
+    context.timer.begin(context.commands, {"blur_thickness", texels, texels * (4 + 8 + 8 + 4), false, 2});
+    step(along_x, PlanImage::Thickness, PlanImage::ThicknessSums);
+    step(along_y, PlanImage::ThicknessSums, PlanImage::Thickness);
+    context.timer.end(context.commands);
+}
+
+}  // namespace sluice::vk

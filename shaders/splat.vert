@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// A sphere as screen-space triangles around its exact perspective bounds; both splat passes use it.
+// Inputs:  particle centres, world metres, three floats each. Vertices are pulled, not instanced: software rasterisers pay
+//          for each instance what they would pay for a draw.
+// Outputs: position in NDC (row 0 at the bottom, as OpenGL would put it), eye-space centre.
+// VERTICES = 3: one triangle around the rectangle (half the set-up cost, twice the area); 6: the rectangle as two.
+// Bound of its test: no pixel whose centre lies more than 0.01 pixels inside the sphere's outline is missed.
+#include "splat.glsl"
+
+layout(constant_id = 0) const uint VERTICES = 3u;
+layout(constant_id = 1) const uint SCALED = 0u;  // 1: the target has frame.thickness.x pixels per texel
+
+layout(std430, set = 0, binding = 1) readonly buffer Positions { float position[]; };
+
+layout(location = 0) flat out vec3 out_eye;
+
+void main() {
+    const uint particle = uint(gl_VertexIndex) / VERTICES;
+    const uint corner = uint(gl_VertexIndex) - particle * VERTICES;
+    const vec3 world = vec3(position[3u * particle], position[3u * particle + 1u], position[3u * particle + 2u]);
+    const vec3 eye = (frame.view * vec4(world, 1.0)).xyz;
+    out_eye = eye;
+
+    const vec4 bounds = ndcBounds(eye, splatRadius());
+    const float scale = SCALED != 0u ? frame.thickness.x : 1.0;
+    // Texel centres inside the bounds; a sphere between them costs no triangle.
+    const vec4 texels = (bounds * 0.5 + 0.5) * frame.size.xyxy / scale;
+    const bool touches = all(lessThanEqual(ceil(texels.xy - 0.5), floor(texels.zw - 0.5)));
+    // Negated so that a NaN position is dropped, too.
+    if (!touches || !all(lessThan(abs(eye), vec3(1e15)))) {
+        gl_Position = vec4(-2.0, -2.0, 0.5, 1.0);
+        return;
+    }
+    vec2 along;
+    if (VERTICES == 3u) {
+        along = vec2(corner == 1u ? 2.0 : 0.0, corner == 2u ? 2.0 : 0.0);
+    } else {
+        along = vec2(corner == 1u || corner == 2u || corner == 4u ? 1.0 : 0.0,
+                     corner == 2u || corner == 4u || corner == 5u ? 1.0 : 0.0);
+    }
+    gl_Position = vec4(bounds.xy + along * (bounds.zw - bounds.xy), 0.5, 1.0);
+}
