@@ -16,7 +16,9 @@ bool atLeast(int version, const char* extension) {
     return epoxy_gl_version() >= version || (extension != nullptr && epoxy_has_gl_extension(extension));
 }
 
-std::uint32_t has(const char* extension) { return epoxy_has_gl_extension(extension) ? 1U : 0U; }
+std::uint32_t has(const char* extension) {
+    return epoxy_has_gl_extension(extension) ? 1U : 0U;
+}
 
 void copyString(std::span<char> target, GLenum name) {
     // GLubyte is unsigned char by definition of the API, and these strings are ASCII.

@@ -12,7 +12,8 @@
 namespace sluice::host {
 namespace {
 
-constexpr std::string_view kMesaRemedy = "install libegl-mesa0 and libgl1-mesa-dri, or the EGL library of your GPU driver";
+constexpr std::string_view kMesaRemedy =
+    "install libegl-mesa0 and libgl1-mesa-dri, or the EGL library of your GPU driver";
 
 // The count has to be process-wide because the EGLDisplay is.
 struct DisplayUse {
@@ -154,6 +155,8 @@ Result<std::shared_ptr<EglDisplay>> EglDisplay::open() {
     return Error{SLUICE_ERROR_UNSUPPORTED, "EGL display without a window", tried, std::string(kMesaRemedy)};
 }
 
-EglDisplay::~EglDisplay() { removeUser(display_); }
+EglDisplay::~EglDisplay() {
+    removeUser(display_);
+}
 
 }  // namespace sluice::host

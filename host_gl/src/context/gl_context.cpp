@@ -93,6 +93,8 @@ Status GlContext::makeCurrent() const {
     return {};
 }
 
-void GlContext::release() const { impl_->release(); }
+void GlContext::release() const {
+    impl_->release();
+}
 
 }  // namespace sluice::host

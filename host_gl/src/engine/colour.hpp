@@ -16,13 +16,23 @@ inline float encodeSrgb(float linear) {
     return c <= 0.0031308F ? 12.92F * c : 1.055F * std::pow(c, 1.0F / 2.4F) - 0.055F;
 }
 
-inline Vec3 encodeSrgb(const Vec3& c) { return {encodeSrgb(c[0]), encodeSrgb(c[1]), encodeSrgb(c[2])}; }
+inline Vec3 encodeSrgb(const Vec3& c) {
+    return {encodeSrgb(c[0]), encodeSrgb(c[1]), encodeSrgb(c[2])};
+}
 
-inline Vec3 operator+(const Vec3& a, const Vec3& b) { return {a[0] + b[0], a[1] + b[1], a[2] + b[2]}; }
-inline Vec3 operator-(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-inline Vec3 operator*(const Vec3& a, float s) { return {a[0] * s, a[1] * s, a[2] * s}; }
+inline Vec3 operator+(const Vec3& a, const Vec3& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vec3 operator-(const Vec3& a, const Vec3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Vec3 operator*(const Vec3& a, float s) {
+    return {a[0] * s, a[1] * s, a[2] * s};
+}
 
-inline Vec3 mix(const Vec3& a, const Vec3& b, float t) { return a + (b - a) * t; }
+inline Vec3 mix(const Vec3& a, const Vec3& b, float t) {
+    return a + (b - a) * t;
+}
 
 /// 0 below `low`, 1 above `high`, 3t^2 - 2t^3 between.
 inline float smoothStep(float low, float high, float x) {

@@ -30,7 +30,9 @@ constexpr float kLowestSun = 0.05F;
 
 using Vec4 = std::array<float, 4>;
 
-Vec4 opaque(const Vec3& c) { return {c[0], c[1], c[2], 1.0F}; }
+Vec4 opaque(const Vec3& c) {
+    return {c[0], c[1], c[2], 1.0F};
+}
 
 /// Hue of the sun in encoded values; a radiance above 1 is as bright as this engine can show.
 Vec3 sunColour(const SluiceSky& sky) {
@@ -38,7 +40,9 @@ Vec3 sunColour(const SluiceSky& sky) {
     return encodeSrgb({sky.sun_radiance[0] / peak, sky.sun_radiance[1] / peak, sky.sun_radiance[2] / peak});
 }
 
-Vec3 horizonColour(const SluiceSky& sky) { return encodeSrgb({sky.horizon[0], sky.horizon[1], sky.horizon[2]}); }
+Vec3 horizonColour(const SluiceSky& sky) {
+    return encodeSrgb({sky.horizon[0], sky.horizon[1], sky.horizon[2]});
+}
 
 void setLights(const SluiceSky& sky, const EngineScene& scene) {
     const Vec4 none{0.0F, 0.0F, 0.0F, 1.0F};
@@ -85,17 +89,18 @@ void setFog(const SluiceSky& sky, float density) {
 
 /// Everything that the frame relies on, whatever state the caller was in.
 void setDefaults() {
-    for (const GLenum off : std::initializer_list<GLenum>{GL_SCISSOR_TEST, GL_BLEND, GL_ALPHA_TEST, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP, GL_FOG,
-                             GL_LIGHTING, GL_DITHER, GL_POLYGON_OFFSET_FILL, GL_POLYGON_STIPPLE, GL_POLYGON_SMOOTH,
-                             GL_COLOR_SUM, GL_CLIP_PLANE0, GL_CLIP_PLANE1, GL_CLIP_PLANE2, GL_CLIP_PLANE3,
-                             GL_CLIP_PLANE4, GL_CLIP_PLANE5}) {
+    for (const GLenum off : std::initializer_list<GLenum>{
+             GL_SCISSOR_TEST, GL_BLEND, GL_ALPHA_TEST, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP, GL_FOG, GL_LIGHTING,
+             GL_DITHER, GL_POLYGON_OFFSET_FILL, GL_POLYGON_STIPPLE, GL_POLYGON_SMOOTH, GL_COLOR_SUM, GL_CLIP_PLANE0,
+             GL_CLIP_PLANE1, GL_CLIP_PLANE2, GL_CLIP_PLANE3, GL_CLIP_PLANE4, GL_CLIP_PLANE5}) {
         glDisable(off);
     }
     glActiveTexture(GL_TEXTURE0);
     glMatrixMode(GL_TEXTURE);
     glLoadIdentity();
-    for (const GLenum off : std::initializer_list<GLenum>{GL_TEXTURE_GEN_S, GL_TEXTURE_GEN_T, GL_TEXTURE_GEN_R, GL_TEXTURE_GEN_Q, GL_TEXTURE_1D,
-                             GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP}) {
+    for (const GLenum off :
+         std::initializer_list<GLenum>{GL_TEXTURE_GEN_S, GL_TEXTURE_GEN_T, GL_TEXTURE_GEN_R, GL_TEXTURE_GEN_Q,
+                                       GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP}) {
         glDisable(off);
     }
     glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);

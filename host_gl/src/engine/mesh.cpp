@@ -15,7 +15,9 @@ struct Ground {
     float x, z;
 };
 
-void grey(float value) { glColor3f(value, value, value); }
+void grey(float value) {
+    glColor3f(value, value, value);
+}
 
 void panelRow(const Ground& a, const Ground& b, const Span& span, const Span& greys, const Skin& skin, float u_end,
               float base) {
@@ -151,8 +153,7 @@ void emitGround(const Plan& plan, float y, float metres, int cells) {
     }
 }
 
-void emitLathe(float x, float z, std::span<const LathePoint> profile, int segments, float u_turns,
-               float v_per_metre) {
+void emitLathe(float x, float z, std::span<const LathePoint> profile, int segments, float u_turns, float v_per_metre) {
     struct Slope {
         float out, up;
     };

@@ -19,7 +19,8 @@ constexpr Vec3 kGold{0.88F, 0.68F, 0.30F};
 
 constexpr float kRootHalf = 0.70710678F;
 
-/// Distance of a point in two overlapping squares, one turned by 45 degrees; < r inside the eight-pointed star of size r.
+/// Distance of a point in two overlapping squares, one turned by 45 degrees; < r inside the eight-pointed star of size
+/// r.
 float starDistance(float x, float y) {
     const float square = std::max(std::abs(x), std::abs(y));
     const float diamond = (std::abs(x) + std::abs(y)) * kRootHalf;
@@ -145,9 +146,8 @@ Image paintPaving(const NoiseField& noise) {
 
 Image paintPoolFloor(const NoiseField& noise) {
     return paintImage(1024, 1024, [&](float u, float v) {
-        return tesserae(u, v, 64, noise, 21, [](float x, float y, float pick) {
-            return medallion(x * 2.0F - 1.0F, y * 2.0F - 1.0F, pick);
-        });
+        return tesserae(u, v, 64, noise, 21,
+                        [](float x, float y, float pick) { return medallion(x * 2.0F - 1.0F, y * 2.0F - 1.0F, pick); });
     });
 }
 

@@ -19,18 +19,36 @@ constexpr int kPillarSegments = 40;       // sagitta 0.5 mm at a radius of 0.16 
 constexpr int kCasterSegments = 16;
 constexpr float kPerLimestone = 1.0F / kLimestoneMetres;
 
-Plan innerPlan(const Basin& basin) { return {basin.centre[0], basin.centre[2], basin.half_x, basin.half_z}; }
-Plan outerPlan(const Basin& basin) { return innerPlan(basin).grown(basin.wall); }
-float rim(const Basin& basin) { return basin.centre[1] + basin.height; }
-float copingFoot(const Basin& basin) { return rim(basin) - std::min(kCopingHeight, 0.5F * basin.height); }
+Plan innerPlan(const Basin& basin) {
+    return {basin.centre[0], basin.centre[2], basin.half_x, basin.half_z};
+}
+Plan outerPlan(const Basin& basin) {
+    return innerPlan(basin).grown(basin.wall);
+}
+float rim(const Basin& basin) {
+    return basin.centre[1] + basin.height;
+}
+float copingFoot(const Basin& basin) {
+    return rim(basin) - std::min(kCopingHeight, 0.5F * basin.height);
+}
 
-Plan squareAround(const Pillar& pillar, float half) { return {pillar.base[0], pillar.base[2], half, half}; }
+Plan squareAround(const Pillar& pillar, float half) {
+    return {pillar.base[0], pillar.base[2], half, half};
+}
 
 /// The unit of a pillar's mouldings: its radius, unless the pillar is too short for them.
-float module(const Pillar& pillar) { return std::min(pillar.radius, pillar.height / 5.0F); }
-float shaftFoot(const Pillar& pillar) { return pillar.base[1] + 0.95F * module(pillar); }
-float shaftHead(const Pillar& pillar) { return pillar.base[1] + pillar.height - 1.10F * module(pillar); }
-float plinthHalf(const Pillar& pillar) { return 1.45F * pillar.radius; }
+float module(const Pillar& pillar) {
+    return std::min(pillar.radius, pillar.height / 5.0F);
+}
+float shaftFoot(const Pillar& pillar) {
+    return pillar.base[1] + 0.95F * module(pillar);
+}
+float shaftHead(const Pillar& pillar) {
+    return pillar.base[1] + pillar.height - 1.10F * module(pillar);
+}
+float plinthHalf(const Pillar& pillar) {
+    return 1.45F * pillar.radius;
+}
 
 /// Attic base: torus, fillet and the sweep into the shaft. Proportions chosen by eye.
 std::array<LathePoint, 7> baseProfile(const Pillar& pillar) {
@@ -100,9 +118,13 @@ void inCrate(const Crate& crate, const Emit& emit) {
     glPopMatrix();
 }
 
-bool onFloor(float foot, const EngineScene& scene) { return std::abs(foot - scene.floor_height) < 0.05F; }
+bool onFloor(float foot, const EngineScene& scene) {
+    return std::abs(foot - scene.floor_height) < 0.05F;
+}
 
-Plan enclosurePlan(const EngineScene& scene) { return {0.0F, 0.0F, scene.floor_half_extent, scene.floor_half_extent}; }
+Plan enclosurePlan(const EngineScene& scene) {
+    return {0.0F, 0.0F, scene.floor_half_extent, scene.floor_half_extent};
+}
 
 }  // namespace
 

@@ -19,15 +19,25 @@ constexpr int kGroundRings = 24;
 constexpr int kSunSegments = 96;
 constexpr int kSunRings = 56;
 
-Vec3 vec3(const float (&v)[3]) { return {v[0], v[1], v[2]}; }
-float dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec3 vec3(const float (&v)[3]) {
+    return {v[0], v[1], v[2]};
+}
+float dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vec3 unit(const Vec3& a) { return a * (1.0F / std::sqrt(dot(a, a))); }
+Vec3 unit(const Vec3& a) {
+    return a * (1.0F / std::sqrt(dot(a, a)));
+}
 
-float sunOuter() { return std::cos(2.5F * kDegree); }
-float sunInner() { return std::cos(1.0F * kDegree); }
+float sunOuter() {
+    return std::cos(2.5F * kDegree);
+}
+float sunInner() {
+    return std::cos(1.0F * kDegree);
+}
 
 Vec3 baseRadiance(const SluiceSky& sky, float up) {
     return up >= 0.0F ? mix(vec3(sky.horizon), vec3(sky.zenith), std::sqrt(up))

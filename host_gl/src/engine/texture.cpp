@@ -59,6 +59,8 @@ Texture::~Texture() {
     }
 }
 
-void Texture::bind() const { glBindTexture(GL_TEXTURE_2D, name_); }
+void Texture::bind() const {
+    glBindTexture(GL_TEXTURE_2D, name_);
+}
 
 }  // namespace sluice::host

@@ -27,8 +27,7 @@ template <typename Paint>
             const Vec3 colour = paint((static_cast<float>(x) + 0.5F) / static_cast<float>(width),
                                       (static_cast<float>(y) + 0.5F) / static_cast<float>(height));
             for (const float channel : colour) {
-                image.rgb.push_back(
-                    static_cast<std::uint8_t>(std::lround(std::clamp(channel, 0.0F, 1.0F) * 255.0F)));
+                image.rgb.push_back(static_cast<std::uint8_t>(std::lround(std::clamp(channel, 0.0F, 1.0F) * 255.0F)));
             }
         }
     }

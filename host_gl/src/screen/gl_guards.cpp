@@ -62,9 +62,13 @@ FramebufferGuard::~FramebufferGuard() {
     glBindRenderbuffer(GL_RENDERBUFFER, static_cast<GLuint>(renderbuffer_));
 }
 
-TextureGuard::TextureGuard() { glGetIntegerv(GL_TEXTURE_BINDING_2D, &texture_); }
+TextureGuard::TextureGuard() {
+    glGetIntegerv(GL_TEXTURE_BINDING_2D, &texture_);
+}
 
-TextureGuard::~TextureGuard() { glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(texture_)); }
+TextureGuard::~TextureGuard() {
+    glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(texture_));
+}
 
 PixelGuard::PixelGuard() {
     for (std::size_t i = 0; i < kStores; ++i) {

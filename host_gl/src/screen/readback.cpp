@@ -53,7 +53,9 @@ Pixels flipped(const std::vector<T>& source, std::uint32_t width, std::uint32_t 
     return pixels;
 }
 
-float identity(float value) { return value; }
+float identity(float value) {
+    return value;
+}
 
 template <typename T>
 std::vector<T> readScreen(const Screen& screen, GLenum format, GLenum type, std::uint32_t channels) {
@@ -79,8 +81,8 @@ std::vector<T> readLevel(std::uint32_t texture, GLenum format, GLenum type, std:
 /// Depth, then stencil where the format table counts it as a channel.
 Pixels readDepthStencil(std::uint32_t texture, std::uint32_t width, std::uint32_t height, std::uint32_t channels) {
     constexpr float kDepthMax = 16777215.0F;  // 2^24 - 1
-    const auto packed = readLevel<std::uint32_t>(texture, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8,
-                                                 std::size_t{width} * height);
+    const auto packed =
+        readLevel<std::uint32_t>(texture, GL_DEPTH_STENCIL, GL_UNSIGNED_INT_24_8, std::size_t{width} * height);
     std::vector<float> values;
     values.reserve(packed.size() * channels);
     for (const std::uint32_t texel : packed) {

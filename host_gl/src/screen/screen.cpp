@@ -73,10 +73,10 @@ Result<Screen> Screen::create(std::uint32_t width, std::uint32_t height) {
                      "give a smaller size"};
     }
     if (status != GL_FRAMEBUFFER_COMPLETE || error != GL_NO_ERROR) {
-        return Error{SLUICE_ERROR_UNSUPPORTED, thing,
-                     fmt::format("RGBA8 with DEPTH24_STENCIL8 is not complete: status 0x{:04x}, error 0x{:04x}", status,
-                                 error),
-                     "update the GL driver"};
+        return Error{
+            SLUICE_ERROR_UNSUPPORTED, thing,
+            fmt::format("RGBA8 with DEPTH24_STENCIL8 is not complete: status 0x{:04x}, error 0x{:04x}", status, error),
+            "update the GL driver"};
     }
     return screen;
 }
