@@ -4,20 +4,18 @@
 #include <fmt/format.h>
 
 #include <charconv>
-#include <optional>
 
 namespace sluice::cli {
 namespace {
 
-/// All of `text` as a whole number without sign, blanks or leftovers.
-std::optional<std::int64_t> whole(std::string_view text) {
+constexpr std::int64_t kNotWhole = -1;
+
+/// All of `text` as a whole number without sign, blanks or leftovers; else kNotWhole.
+std::int64_t whole(std::string_view text) {
     std::int64_t value = 0;
     const char* end = text.data() + text.size();
     const auto [stop, failure] = std::from_chars(text.data(), end, value);
-    if (failure != std::errc{} || stop != end || text.front() == '-') {
-        return std::nullopt;
-    }
-    return value;
+    return failure == std::errc{} && stop == end && text.front() != '-' ? value : kNotWhole;
 }
 
 Error bad(std::string_view what, std::string_view expected, std::string_view found) {
@@ -31,21 +29,21 @@ Result<scene::FrameRange> parseFrameRange(std::string_view text) {
     const std::size_t dots = text.find("..");
     const std::string_view left = text.substr(0, dots);
     const std::string_view right = dots == std::string_view::npos ? left : text.substr(dots + 2);
-    const auto first = left.empty() ? std::nullopt : whole(left);
-    const auto last = right.empty() ? std::nullopt : whole(right);
-    if (!first || !last || *first > *last || *last > scene::kMaxFrame) {
+    const std::int64_t first = whole(left);
+    const std::int64_t last = whole(right);
+    if (first < 0 || last < first || last > scene::kMaxFrame) {
         return bad("frames", fmt::format("A..B with 0 <= A <= B <= {}", scene::kMaxFrame), text);
     }
-    return scene::FrameRange{*first, *last};
+    return scene::FrameRange{first, last};
 }
 
 Result<scene::Size> parseSize(std::string_view text) {
     const std::size_t cross = text.find('x');
-    if (cross != std::string_view::npos && cross > 0 && cross + 1 < text.size()) {
-        const auto width = whole(text.substr(0, cross));
-        const auto height = whole(text.substr(cross + 1));
-        if (width && height && *width >= 1 && *height >= 1 && *width <= scene::kMaxSize && *height <= scene::kMaxSize) {
-            return scene::Size{static_cast<std::uint32_t>(*width), static_cast<std::uint32_t>(*height)};
+    if (cross != std::string_view::npos) {
+        const std::int64_t width = whole(text.substr(0, cross));
+        const std::int64_t height = whole(text.substr(cross + 1));
+        if (width >= 1 && height >= 1 && width <= scene::kMaxSize && height <= scene::kMaxSize) {
+            return scene::Size{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
         }
     }
     return bad("size", fmt::format("WxH, each 1 to {}", scene::kMaxSize), text);

@@ -49,11 +49,15 @@ std::string formatBytes(double bytes) {
 }
 
 std::string formatCount(unsigned long long count) {
-    std::string digits = fmt::format("{}", count);
-    for (std::size_t i = digits.size(); i > 3; i -= 3) {
-        digits.insert(i - 3, ",");
+    const std::string digits = fmt::format("{}", count);
+    std::string text;
+    for (std::size_t i = 0; i < digits.size(); ++i) {
+        if (i > 0 && (digits.size() - i) % 3 == 0) {
+            text.push_back(',');
+        }
+        text.push_back(digits[i]);
     }
-    return digits;
+    return text;
 }
 
 }  // namespace sluice::cli
