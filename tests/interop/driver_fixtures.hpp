@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Capabilities of real driver pairs, as recorded.
+#pragma once
+
+#include <string_view>
+
+#include "sluice/plugin.h"
+
+namespace sluice::test {
+
+/// Both sides of one machine.
+struct DriverPair {
+    std::string_view name;
+    std::string_view source;  ///< where the values come from
+    SluiceHostCapabilities gl{};
+    SluiceRendererCapabilities vk{};
+};
+
+[[nodiscard]] DriverPair mesa22Software();      ///< llvmpipe and lavapipe 22.3.6
+[[nodiscard]] DriverPair nvidiaWithTimeline();  ///< proprietary, with GL_NV_timeline_semaphore
+[[nodiscard]] DriverPair nvidiaWithoutTimeline();
+[[nodiscard]] DriverPair radeonMesa24();  ///< radeonsi and radv
+[[nodiscard]] DriverPair hybridLaptop();  ///< OpenGL on the integrated GPU, Vulkan on the discrete one
+
+inline constexpr std::uint32_t kAllFormats = (1U << static_cast<std::uint32_t>(SLUICE_FORMAT_COUNT)) - 2U;
+inline constexpr std::uint32_t kDepthFormats = 1U << SLUICE_FORMAT_D32F | 1U << SLUICE_FORMAT_D24S8;
+
+}  // namespace sluice::test
