@@ -4,7 +4,7 @@
 
 #include <volk.h>
 
-#include <array>
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <string_view>
@@ -79,6 +79,9 @@ struct Device {
 
     /// Warnings and errors of the validation layer since creation; 0 when validation is off.
     [[nodiscard]] std::uint32_t validationMessages() const;
+
+    /// Bytes of exportable images that the CPU has moved through uploadImage and downloadImage. Frames must not add to it.
+    mutable std::atomic<std::uint64_t> shared_bytes_by_cpu{0};
 
     const SluiceHostServices* services = nullptr;
     std::unique_ptr<MessageSink> messages;

@@ -33,6 +33,12 @@ VkBufferImageCopy wholeImage(const Image& image) {
     return region;
 }
 
+void count(const Device& device, const Image& image, std::size_t bytes) {
+    if (image.exportable()) {
+        device.shared_bytes_by_cpu.fetch_add(bytes, std::memory_order_relaxed);
+    }
+}
+
 }  // namespace
 
 Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>& record) {
@@ -116,6 +122,7 @@ Status uploadImage(const Device& device, const Image& image, std::span<const std
         return staging.error();
     }
     std::memcpy(staging.value().mapped().data(), texels.data(), texels.size());
+    count(device, image, texels.size());
     const VkBuffer buffer = staging.value().buffer();
     return runOnce(device, [&](VkCommandBuffer commands) {
         fullBarrier(device, commands, image.image(), image.aspect(), VK_IMAGE_LAYOUT_UNDEFINED,
@@ -156,6 +163,7 @@ Result<std::vector<std::byte>> downloadImage(const Device& device, const Image& 
     if (!status) {
         return status.error();
     }
+    count(device, image, texels.size());
     std::memcpy(texels.data(), staging.value().mapped().data(), texels.size());
     return texels;
 }

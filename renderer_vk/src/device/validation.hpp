@@ -16,7 +16,7 @@ namespace sluice::vk {
 /// Pinned: Vulkan keeps a pointer to it. Any thread may deliver.
 struct MessageSink {
     std::atomic<std::uint32_t> count{0};
-    const SluiceHostServices* services = nullptr;  ///< may be null
+    std::atomic<const SluiceHostServices*> services{nullptr};  ///< may be null
 };
 
 inline constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";

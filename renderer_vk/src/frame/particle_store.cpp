@@ -15,11 +15,23 @@ constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BU
 /// Of one particle: x, y, z.
 constexpr std::uint64_t kPositionBytes = 3 * sizeof(float);
 
-/// Host-visible memory that is also local: the CPU writes where the GPU reads, and no copy is needed.
+/// The CPU can write where the GPU reads, and no copy is needed: the largest local heap is host-visible. A small window
+/// of 256 MiB beside a large heap does not count; it is soon full.
 bool writesLocalMemory(const Device& device) {
     constexpr VkMemoryPropertyFlags kAll = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT |
                                            VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
-    return device.memoryType(~0U, kAll).ok();
+    const Result<std::uint32_t> type = device.memoryType(~0U, kAll);
+    if (!type) {
+        return false;
+    }
+    const VkDeviceSize window = device.memory.memoryHeaps[device.memory.memoryTypes[type.value()].heapIndex].size;
+    for (std::uint32_t i = 0; i < device.memory.memoryHeapCount; ++i) {
+        const VkMemoryHeap& heap = device.memory.memoryHeaps[i];
+        if ((heap.flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT) != 0 && heap.size > window) {
+            return false;
+        }
+    }
+    return true;
 }
 
 }  // namespace

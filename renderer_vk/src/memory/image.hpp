@@ -42,6 +42,7 @@ class Image {
     [[nodiscard]] std::uint32_t height() const { return height_; }
     [[nodiscard]] VkDeviceSize allocationSize() const { return allocation_size_; }
     [[nodiscard]] VkImageAspectFlags aspect() const;
+    [[nodiscard]] bool exportable() const { return exportable_; }
     [[nodiscard]] explicit operator bool() const { return image_ != VK_NULL_HANDLE; }
     [[nodiscard]] ImageRef ref() const { return {image_, view_, format_, width_, height_}; }
 

@@ -181,19 +181,22 @@ void RendererTimeline::force(std::uint64_t value) {
     }
 }
 
-bool RendererTimeline::drain(std::uint64_t grace_ns) {
-    if (last_signal_ == 0 || wait(last_signal_, grace_ns) == SLUICE_OK) {
-        return device_.fn.vkQueueWaitIdle(device_.queue) == VK_SUCCESS;
+Drained RendererTimeline::idle() const {
+    return device_.fn.vkQueueWaitIdle(device_.queue) == VK_SUCCESS ? Drained::Idle : Drained::Lost;
+}
+
+Drained RendererTimeline::drain(std::uint64_t grace_ns) {
+    if (last_signal_ == 0 || wait(last_signal_, grace_ns) != SLUICE_TIMEOUT) {
+        return idle();
     }
     Result<std::uint64_t> host = value(SLUICE_HOST_TO_RENDERER);
     if (!host) {
-        return false;
+        return Drained::Lost;
     }
-    const bool waits_for_host = host.value() < last_wait_;
-    if (waits_for_host && kind_ == SLUICE_TIMELINE_BINARY) {
-        return false;
-    }
-    if (waits_for_host) {
+    if (host.value() < last_wait_) {
+        if (kind_ == SLUICE_TIMELINE_BINARY) {
+            return Drained::Stuck;
+        }
         device_.log(SLUICE_LOG_WARNING,
                     fmt::format("host timeline: value {} was promised and never came; moved on from {} so that "
                                 "submitted frames end",
@@ -201,7 +204,7 @@ bool RendererTimeline::drain(std::uint64_t grace_ns) {
         force(last_wait_);
     }
     // Slow work is no fault: without an unkept promise it ends, however long it takes.
-    return device_.fn.vkQueueWaitIdle(device_.queue) == VK_SUCCESS;
+    return idle();
 }
 
 }  // namespace sluice::vk

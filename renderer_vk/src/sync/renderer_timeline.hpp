@@ -22,6 +22,13 @@ struct SubmitSemaphores {
     std::vector<VkSemaphoreSubmitInfo> waits, signals;
 };
 
+/// How the queue ended.
+enum class Drained : std::uint8_t {
+    Idle,
+    Lost,  ///< the device is lost: nothing runs any more, everything may be destroyed
+    Stuck  ///< a submission waits for a binary semaphore that OpenGL never signalled: nothing may be destroyed
+};
+
 /// Each direction is a Vulkan timeline semaphore. NATIVE exports both; BINARY adds one exported binary semaphore per
 /// value and keeps the renderer-to-host timeline for its own bookkeeping; the other kinds use them from the CPU.
 /// signal, wait and value may be called from any thread, the rest on the renderer's thread only.
@@ -57,12 +64,12 @@ class RendererTimeline {
     void retireFrame(std::uint64_t frame);
 
     /// Waits until every submission has finished. If one waits for a host value that does not come within `grace_ns`, a
-    /// CPU-signalled timeline is moved on by force, with a warning in the log; false if the queue still does not get
-    /// done (an unsignalled binary semaphore cannot be helped), or the device is lost.
-    [[nodiscard]] bool drain(std::uint64_t grace_ns);
+    /// timeline semaphore is moved on by force, with a warning in the log. Binary semaphores cannot be.
+    [[nodiscard]] Drained drain(std::uint64_t grace_ns);
 
   private:
     [[nodiscard]] bool cpuSignals() const;
+    [[nodiscard]] Drained idle() const;
     void force(std::uint64_t value);
 
     const Device& device_;

@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: MIT
+#include "plugin/arguments.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstddef>
+#include <initializer_list>
+#include <span>
+#include <string_view>
+
+#include "sluice/format.hpp"
+#include "sluice/timeline.hpp"
+
+namespace sluice::vk {
+namespace {
+
+Error invalid(std::string_view thing, std::string detail, std::string_view remedy = "") {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, std::string(thing), std::move(detail), std::string(remedy)};
+}
+
+/// The struct is there and has every field of ABI 1.0. A larger one comes from a newer host; its tail is not looked at.
+template <typename T>
+Status checkStruct(const T* value, std::string_view name) {
+    if (value == nullptr) {
+        return invalid(name, "it is NULL");
+    }
+    if (value->struct_size < sizeof(T)) {
+        return invalid(name, fmt::format("struct_size is {}, at least {} is needed", value->struct_size, sizeof(T)),
+                       "set it to sizeof");
+    }
+    return {};
+}
+
+Status checkFinite(std::span<const float> values, std::string_view name) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!std::isfinite(values[i])) {
+            return invalid(fmt::format("{}[{}]", name, i), fmt::format("{} is not a finite number", values[i]));
+        }
+    }
+    return {};
+}
+
+constexpr std::uint32_t kFluidRoles =
+    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_COLOUR) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_DEPTH) |
+    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS);
+constexpr std::uint32_t kAlwaysShared =
+    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_COLOUR) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_DEPTH);
+
+}  // namespace
+
+Status checkServices(const SluiceHostServices* host) {
+    if (Status status = checkStruct(host, "host"); !status) {
+        return status;
+    }
+    if ((host->abi_version >> 16U) != SLUICE_ABI_MAJOR) {
+        return Error{SLUICE_ERROR_ABI_MISMATCH, "host",
+                     fmt::format("its ABI major is {}, this renderer's {}", host->abi_version >> 16U, SLUICE_ABI_MAJOR),
+                     "use a host and a renderer of one release"};
+    }
+    return {};
+}
+
+Status checkCreateHeader(const SluiceCreateInfo* info) {
+    if (Status status = checkStruct(info, "info"); !status) {
+        return status;
+    }
+    if (Status status = checkStruct(&info->host, "info.host"); !status) {
+        return status;
+    }
+    if (info->host.device_uuid_count > SLUICE_MAX_DEVICE_UUIDS) {
+        return invalid("info.host.device_uuid_count", fmt::format("{} exceeds {}", info->host.device_uuid_count,
+                                                                  SLUICE_MAX_DEVICE_UUIDS));
+    }
+    return {};
+}
+
+Status checkSize(std::uint32_t width, std::uint32_t height) {
+    if (width < 1 || width > kMaxSize || height < 1 || height > kMaxSize) {
+        return invalid("size", fmt::format("{}x{} is outside 1..{}", width, height, kMaxSize));
+    }
+    return {};
+}
+
+Status checkCreateInfo(const SluiceHostServices* host, const SluiceCreateInfo* info) {
+    if (Status status = checkServices(host); !status) {
+        return status;
+    }
+    if (host->share_image == nullptr || host->retire_image == nullptr || host->canary == nullptr) {
+        return invalid("host", "share_image, retire_image or canary is NULL");
+    }
+    if (Status status = checkCreateHeader(info); !status) {
+        return status;
+    }
+    if (Status status = checkSize(info->width, info->height); !status) {
+        return status;
+    }
+    if (info->image_sets < 1 || info->image_sets > SLUICE_MAX_IMAGE_SETS) {
+        return invalid("image_sets", fmt::format("{} is outside 1..{}", info->image_sets, SLUICE_MAX_IMAGE_SETS));
+    }
+    if (info->timeline >= SLUICE_TIMELINE_KIND_COUNT) {
+        return invalid("timeline", fmt::format("{} is not a SluiceTimelineKind", info->timeline));
+    }
+    if ((info->outputs & ~kFluidRoles) != 0) {
+        return invalid("outputs", fmt::format("{:#x} has bits that are not FLUID_* roles", info->outputs));
+    }
+    if (info->host_depth_format != SLUICE_FORMAT_NONE && findFormat(info->host_depth_format) == nullptr) {
+        return invalid("host_depth_format", fmt::format("{} is not a SluiceFormat", info->host_depth_format));
+    }
+    return {};
+}
+
+Status checkParticles(const SluiceParticles* particles) {
+    if (Status status = checkStruct(particles, "particles"); !status) {
+        return status;
+    }
+    if (particles->count == 0) {
+        return {};
+    }
+    if (particles->position == nullptr) {
+        return invalid("particles.position", fmt::format("it is NULL with a count of {}", particles->count));
+    }
+    if (!std::isfinite(particles->radius) || particles->radius <= 0.0F) {
+        return invalid("particles.radius", fmt::format("{} is not a positive length in metres", particles->radius));
+    }
+    return checkFinite({particles->position, std::size_t{3} * particles->count}, "particles.position");
+}
+
+Status checkEnvironment(const SluiceEnvironment* environment) {
+    if (environment == nullptr) {
+        return {};
+    }
+    if (Status status = checkStruct(environment, "environment"); !status) {
+        return status;
+    }
+    if (environment->pixels == nullptr) {
+        return invalid("environment.pixels", "it is NULL", "pass a NULL environment for the procedural sky");
+    }
+    return checkSize(environment->width, environment->height);
+}
+
+Status checkNeeds(const SluiceSceneNeeds* needs) { return checkStruct(needs, "needs"); }
+
+Status checkFrameOrder(const SluiceFrame* frame, const FrameExpectation& expected) {
+    if (Status status = checkStruct(frame, "frame"); !status) {
+        return status;
+    }
+    if (frame->frame <= expected.submitted || frame->frame > expected.attempted + 1) {
+        return invalid("frame.frame",
+                       fmt::format("{} came after frame {}, {} was expected", frame->frame, expected.attempted,
+                                   expected.attempted + 1),
+                       "number frames from 1 without gaps");
+    }
+    if (const std::uint32_t set = imageSetOf(frame->frame, expected.image_sets); frame->image_set != set) {
+        return invalid("frame.image_set", fmt::format("{} is not (frame - 1) % image_sets = {}", frame->image_set, set));
+    }
+    if (frame->wait_value != gbufferWritten(frame->frame)) {
+        return invalid("frame.wait_value",
+                       fmt::format("{} is not 2k-1 = {}", frame->wait_value, gbufferWritten(frame->frame)));
+    }
+    if (frame->signal_value != fluidWritten(frame->frame)) {
+        return invalid("frame.signal_value",
+                       fmt::format("{} is not k = {}", frame->signal_value, fluidWritten(frame->frame)));
+    }
+    return {};
+}
+
+Status checkFrameValues(const SluiceFrame& frame, const FrameExpectation& expected) {
+    if ((frame.flags & ~std::uint32_t{SLUICE_FRAME_SKIP_WAIT}) != 0) {
+        return invalid("frame.flags", fmt::format("{:#x} has bits that are not SluiceFrameFlags", frame.flags));
+    }
+    if (const std::uint32_t unshared = frame.outputs & ~(expected.outputs | kAlwaysShared); unshared != 0) {
+        return invalid("frame.outputs", fmt::format("{:#x} are roles that create was not asked to share", unshared));
+    }
+    struct Field {
+        std::span<const float> values;
+        std::string_view name;
+    };
+    const SluiceCamera& camera = frame.camera;
+    const SluiceSky& sky = frame.sky;
+    const Field fields[] = {
+        {camera.view, "camera.view"},   {camera.projection, "camera.projection"},
+        {{&camera.near_plane, 1}, "camera.near_plane"}, {{&camera.far_plane, 1}, "camera.far_plane"},
+        {sky.zenith, "sky.zenith"},     {sky.horizon, "sky.horizon"},
+        {sky.ground, "sky.ground"},     {sky.to_sun, "sky.to_sun"},
+        {sky.sun_radiance, "sky.sun_radiance"},
+    };
+    for (const Field& field : fields) {
+        if (Status status = checkFinite(field.values, field.name); !status) {
+            return status;
+        }
+    }
+    if (camera.near_plane <= 0.0F || camera.far_plane <= camera.near_plane) {
+        return invalid("camera planes",
+                       fmt::format("near {} and far {} are not 0 < near < far", camera.near_plane, camera.far_plane));
+    }
+    return {};
+}
+
+}  // namespace sluice::vk

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+#include "plugin/boundary.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <string>
+
+namespace sluice::vk {
+
+void writeError(SluiceError* to, const Error& error) noexcept {
+    if (to == nullptr) {
+        return;
+    }
+    // A host that left struct_size at zero has given the struct of this ABI; a smaller one gets what fits.
+    const std::size_t size = to->struct_size == 0 ? sizeof(SluiceError) : to->struct_size;
+    constexpr std::size_t kHeader = offsetof(SluiceError, message);
+    if (size < kHeader) {
+        return;
+    }
+    to->code = error.code;
+    const std::size_t room = std::min(size, sizeof(SluiceError)) - kHeader;
+    if (room == 0) {
+        return;
+    }
+    try {
+        std::string text = error.message();
+        if (text.empty()) {
+            text = error.code == SLUICE_ERROR_OUT_OF_MEMORY ? "out of memory" : "an unknown failure";
+        }
+        const std::size_t length = std::min(text.size(), room - 1);
+        std::memcpy(to->message, text.data(), length);
+        to->message[length] = '\0';
+    } catch (...) {
+        to->message[0] = '\0';  // no memory for the text: the code says as much
+    }
+}
+
+}  // namespace sluice::vk

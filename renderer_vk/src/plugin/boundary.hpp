@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+// Crossing the C ABI: Errors become messages, exceptions become Errors.
+#pragma once
+
+#include <exception>
+#include <new>
+
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::vk {
+
+/// Fills `to`, cut to what its struct_size holds; NULL is allowed.
+void writeError(SluiceError* to, const Error& error) noexcept;
+
+/// Runs `body`, which returns a Status; nothing is thrown.
+template <typename Body>
+[[nodiscard]] SluiceResult guarded(SluiceError* error, Body body) noexcept {
+    try {
+        const Status status = body();
+        if (status) {
+            return SLUICE_OK;
+        }
+        writeError(error, status.error());
+        return status.error().code;
+    } catch (const std::bad_alloc&) {
+        const Error failure{SLUICE_ERROR_OUT_OF_MEMORY, {}, {}, {}};
+        writeError(error, failure);
+        return failure.code;
+    } catch (const std::exception& thrown) {
+        try {
+            writeError(error, {SLUICE_ERROR_INTERNAL, "exception", thrown.what(), {}});
+        } catch (...) {
+            writeError(error, {SLUICE_ERROR_INTERNAL, {}, {}, {}});
+        }
+        return SLUICE_ERROR_INTERNAL;
+    } catch (...) {
+        writeError(error, {SLUICE_ERROR_INTERNAL, {}, {}, {}});
+        return SLUICE_ERROR_INTERNAL;
+    }
+}
+
+}  // namespace sluice::vk
