@@ -46,9 +46,12 @@ template <typename T>
 template <typename T, std::endian order>
 void appendNumber(std::vector<std::byte>& out, T value) {
     const auto bits = static_cast<std::uint64_t>(std::bit_cast<BitsOf<T>>(value));
+    // Grown once and then filled: GCC 14 at -O3 misreads the growth inside push_back (-Wfree-nonheap-object).
+    const std::size_t begin = out.size();
+    out.resize(begin + sizeof(T));
     for (std::size_t i = 0; i < sizeof(T); ++i) {
         const std::size_t shift = 8 * (order == std::endian::big ? sizeof(T) - 1 - i : i);
-        out.push_back(static_cast<std::byte>(bits >> shift & 0xFFU));
+        out[begin + i] = static_cast<std::byte>(bits >> shift & 0xFFU);
     }
 }
 
