@@ -55,10 +55,21 @@ std::size_t at(std::uint32_t x, std::uint32_t y) {
     return std::size_t{y} * kCanaryWidth + x;
 }
 
-class CanaryOfFormat : public testing::TestWithParam<FormatInfo> {};
+std::vector<std::string> formatNames(std::uint32_t least_channels) {
+    std::vector<std::string> names;
+    for (const FormatInfo& info : sluice::formatTable()) {
+        if (info.channels >= least_channels) {
+            names.emplace_back(info.name);
+        }
+    }
+    return names;
+}
+
+class CanaryOfChannels : public testing::TestWithParam<std::string> {};
+class CanaryOfFormat : public testing::TestWithParam<std::string> {};
 
 TEST_P(CanaryOfFormat, MatchesItselfAndNoOtherSeed) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     EXPECT_EQ(pattern(info).size(), std::size_t{kCanaryWidth} * kCanaryHeight * info.bytes_per_texel);
     EXPECT_EQ(verdict(info, pattern(info)), "");
     EXPECT_EQ(pattern(info), pattern(info)) << "the pattern is a function of its arguments";
@@ -66,7 +77,7 @@ TEST_P(CanaryOfFormat, MatchesItselfAndNoOtherSeed) {
 }
 
 TEST_P(CanaryOfFormat, EveryTexelChangedInItsLowestBitIsFoundAndNamed) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     const Bytes good = pattern(info);
     for (std::size_t texel = 0; texel < std::size_t{kCanaryWidth} * kCanaryHeight; texel += 97) {
         Bytes bad = good;
@@ -81,32 +92,32 @@ TEST_P(CanaryOfFormat, EveryTexelChangedInItsLowestBitIsFoundAndNamed) {
 }
 
 TEST_P(CanaryOfFormat, VerticalFlipIsNamed) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     const Bytes bad = rearranged(info, pattern(info), [](auto x, auto y) { return at(x, kCanaryHeight - 1 - y); });
     EXPECT_THAT(verdict(info, bad), HasSubstr("looks like vertical flip"));
 }
 
 TEST_P(CanaryOfFormat, HorizontalFlipIsNamed) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     const Bytes bad = rearranged(info, pattern(info), [](auto x, auto y) { return at(kCanaryWidth - 1 - x, y); });
     EXPECT_THAT(verdict(info, bad), HasSubstr("looks like horizontal flip"));
 }
 
 TEST_P(CanaryOfFormat, ShiftIsNamedWithItsDistance) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     const Bytes bad = rearranged(
         info, pattern(info), [](auto x, auto y) { return x < 3 || y < 1 ? ~std::size_t{0} / 64 : at(x - 3, y - 1); });
     EXPECT_THAT(verdict(info, bad), HasSubstr("looks like shift by (3, 1) texels"));
 }
 
 TEST_P(CanaryOfFormat, WrongRowStrideIsNamed) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     const Bytes bad = rearranged(info, pattern(info), [](auto x, auto y) { return std::size_t{y} * 80 + x; });
     EXPECT_THAT(verdict(info, bad), HasSubstr("read with a stride of 80 texels"));
 }
 
 TEST_P(CanaryOfFormat, StaleImageIsNamed) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     EXPECT_THAT(verdict(info, pattern(info, kSeed - 1)),
                 HasSubstr("looks like stale: the damaged texels hold the pattern"));
     EXPECT_THAT(verdict(info, Bytes(pattern(info).size())), HasSubstr("looks like stale: the damaged texels are zero"));
@@ -114,27 +125,27 @@ TEST_P(CanaryOfFormat, StaleImageIsNamed) {
 
 TEST_P(CanaryOfFormat, TornImageIsNamedStale) {
     // Software drivers tear by 64x64 tiles: a part is old, the rest is new.
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     Bytes bad = pattern(info);
     const Bytes old = pattern(info, kSeed - 1);
     std::copy_n(old.begin(), old.size() / 3, bad.begin());
-    EXPECT_THAT(verdict(info, bad), HasSubstr("looks like stale"));
+    EXPECT_THAT(verdict(info, bad), HasSubstr("looks like stale: the damaged texels hold"));
 }
 
 TEST_P(CanaryOfFormat, NoiseIsNamedOther) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     EXPECT_THAT(verdict(info, pattern(info, kSeed + 77)), HasSubstr("looks like other"));
 }
 
 TEST_P(CanaryOfFormat, WrongSizeIsNamed) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     Bytes bad = pattern(info);
     bad.pop_back();
     EXPECT_THAT(verdict(info, bad), HasSubstr("expected " + std::to_string(bad.size() + 1) + " bytes"));
 }
 
-TEST_P(CanaryOfFormat, ChannelSwapIsNamed) {
-    const FormatInfo& info = GetParam();
+TEST_P(CanaryOfChannels, ChannelSwapIsNamed) {
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     Bytes bad = pattern(info);
     const std::size_t size = info.bytes_per_texel / info.channels;
     std::string expected = "looks like channel swap";
@@ -151,8 +162,6 @@ TEST_P(CanaryOfFormat, ChannelSwapIsNamed) {
             word = (word & 0xc00ffc00U) | ((word & 0x3ffU) << 20U) | ((word >> 20U) & 0x3ffU);
             std::memcpy(&bad[i], &word, 4);
         }
-    } else if (info.channels == 1) {
-        GTEST_SKIP() << "one channel has nothing to swap with";
     } else {
         const std::size_t other = info.channels == 4 ? 2 : 1;  // BGRA, or GR
         for (std::size_t i = 0; i < bad.size(); i += info.bytes_per_texel) {
@@ -163,7 +172,7 @@ TEST_P(CanaryOfFormat, ChannelSwapIsNamed) {
 }
 
 TEST_P(CanaryOfFormat, ValuesSurviveAnyExactTransfer) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     const Bytes bytes = pattern(info);
     const std::size_t size = info.bytes_per_texel / info.channels;
     for (std::size_t i = 0; i < bytes.size(); i += size) {
@@ -191,7 +200,7 @@ TEST_P(CanaryOfFormat, ValuesSurviveAnyExactTransfer) {
 }
 
 TEST_P(CanaryOfFormat, NeighboursRowsColumnsAndChannelsDiffer) {
-    const FormatInfo& info = GetParam();
+    const FormatInfo& info = *sluice::findFormat(GetParam());
     const Bytes bytes = pattern(info);
     const std::size_t row = std::size_t{kCanaryWidth} * info.bytes_per_texel;
     std::set<Bytes> rows;
@@ -210,9 +219,10 @@ TEST_P(CanaryOfFormat, NeighboursRowsColumnsAndChannelsDiffer) {
     EXPECT_LT(equal_neighbours, texels / 100);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryFormat, CanaryOfFormat,
-                         testing::ValuesIn(sluice::formatTable().begin(), sluice::formatTable().end()),
-                         [](const auto& format) { return std::string(format.param.name); });
+INSTANTIATE_TEST_SUITE_P(EveryFormat, CanaryOfFormat, testing::ValuesIn(formatNames(1)),
+                         [](const auto& format) { return format.param; });
+INSTANTIATE_TEST_SUITE_P(SeveralChannels, CanaryOfChannels, testing::ValuesIn(formatNames(2)),
+                         [](const auto& format) { return format.param; });
 
 TEST(Canary, RefusesAnUnknownFormat) {
     const auto status = sluice::canaryCompare(SLUICE_FORMAT_NONE, 4, 4, 1, {});
