@@ -157,7 +157,7 @@ Status readElement(const Element& element, const Plan& plan, ply::Body& body, Bu
     }
     const bool vertex = element.name == "vertex";
     if (vertex) {
-        builder.reserve(element.count, plan.has(Channel::vx), plan.has(Channel::red));
+        builder.reserve(body.mostInstances(), plan.has(Channel::vx), plan.has(Channel::red));
     }
     for (std::uint64_t i = 0; i < element.count; ++i) {
         if (Status ok = body.beginInstance(); !ok) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "ply_body.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -32,11 +33,11 @@ double decode(Type type, const std::byte* at) {
     return readLittle<double>(at);
 }
 
-/// The least bytes that one instance takes: what every value takes in binary, a digit and a separator in text.
-std::uint64_t leastBytes(const Element& element, bool binary) {
+/// The least bytes that one instance takes in a binary file.
+std::uint64_t leastBytes(const Element& element) {
     std::uint64_t least = 0;
     for (const Property& property : element.properties) {
-        least += binary ? sizeOf(property.list_count.value_or(property.type)) : 2;
+        least += sizeOf(property.list_count.value_or(property.type));
     }
     return least;
 }
@@ -69,16 +70,20 @@ Status Body::beginElement(const Element& element) {
         return failure(name_, atLine(element.line), fmt::format("properties for element {}", printable(element.name)),
                        "none");
     }
-    // One more than the bytes there: the last line of a text needs no newline.
-    const std::uint64_t there = bytes_.size() - at_ + (binary_ ? 0 : 1);
-    if (element.count > 0 && there / leastBytes(element, binary_) < element.count) {
+    // A text is not judged by its size: the line that is wrong or missing says more.
+    if (binary_ && element.count > 0 && (bytes_.size() - at_) / leastBytes(element) < element.count) {
         return failure(name_, atByte(at_),
                        fmt::format("{} of element {}, at least {} bytes each", element.count, printable(element.name),
-                                   leastBytes(element, binary_)),
+                                   leastBytes(element)),
                        fmt::format("{} bytes to the end of the file", bytes_.size() - at_),
                        "the file is cut short, or its header claims too much");
     }
     return {};
+}
+
+std::uint64_t Body::mostInstances() const {
+    // In a text, three values take a digit and a separator each, but for the last.
+    return binary_ ? element_->count : std::min<std::uint64_t>(element_->count, (bytes_.size() - at_ + 1) / 6);
 }
 
 Status Body::beginInstance() {

@@ -15,8 +15,10 @@ class Body {
   public:
     Body(Bytes bytes, const Header& header, const std::string& name);
 
-    /// Refuses an element that cannot fit into what is left, before anything is reserved for it.
+    /// Refuses an element of a binary file that cannot fit into what is left.
     [[nodiscard]] Status beginElement(const Element& element);
+    /// How many instances of the element begun, of three values or more, there can be at most: what may be reserved.
+    [[nodiscard]] std::uint64_t mostInstances() const;
     [[nodiscard]] Status beginInstance();
     [[nodiscard]] Result<double> take(const Property& property);
     /// Passes over a scalar or a list.
