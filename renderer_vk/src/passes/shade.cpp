@@ -71,9 +71,9 @@ void ShadePass::record(const PassContext& context) const {
                               output(write_normal, targets.fluid_normal),
                               output(write_thickness, targets.fluid_thickness)};
     const Image& thickness = images[PlanImage::Thickness];
-    const std::uint64_t bytes_per_pixel = 4 + 4 + (images[PlanImage::Normal] ? 8 : 0) +
-                                          (context.plan.refraction ? 4 : 0) + 8 + 4 + (write_normal ? 8 : 0) +
-                                          (write_thickness ? 4 : 0);
+    const std::uint64_t bytes_per_pixel = 4U + 4U + (images[PlanImage::Normal] ? 8U : 0U) +
+                                          (context.plan.refraction ? 4U : 0U) + 8U + 4U + (write_normal ? 8U : 0U) +
+                                          (write_thickness ? 4U : 0U);
     context.timer.begin(context.commands,
                         {"shade", context.pixels(),
                          context.pixels() * bytes_per_pixel + std::uint64_t{thickness.width()} * thickness.height() * 4,

@@ -1,0 +1,15 @@
+# SPDX-License-Identifier: MIT
+# Tests of the pass plan and of every pass; included by CMakeLists.txt.
+find_package(glm REQUIRED)
+find_package(rapidcheck REQUIRED)
+add_library(sluice_pass_rig STATIC pass_rig.cpp reference/fluid_reference.cpp)
+target_link_libraries(sluice_pass_rig PUBLIC sluice_renderer_vk_core glm::glm PRIVATE sluice_options)
+target_include_directories(sluice_pass_rig PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
+
+sluice_add_test(renderer_vk_plan_test pass_plan_test.cpp LIBS sluice_pass_rig rapidcheck rapidcheck_gtest)
+sluice_add_test(renderer_vk_pass_test
+    pass_filter_test.cpp
+    pass_shade_test.cpp
+    pass_splat_test.cpp
+    pass_surface_test.cpp
+    LIBS sluice_pass_rig)
