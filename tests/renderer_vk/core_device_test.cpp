@@ -139,7 +139,7 @@ TEST_P(ProbeFormat, AWrongTexelFromTheHostIsFound) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, ProbeFormat, ::testing::ValuesIn(formatTable().begin(), formatTable().end()),
-                         [](const auto& info) { return std::string(info.param.name); });
+                         [](const auto& test) { return std::string(test.param.name); });
 
 }  // namespace
 }  // namespace sluice::vk::test
