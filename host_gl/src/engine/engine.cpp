@@ -24,6 +24,8 @@ namespace {
 constexpr float kSunStrength = 0.78F;
 /// Light from the open sky, from straight above: keeps shaded walls from looking flat.
 constexpr float kSkyStrength = 0.16F;
+/// Sunlight that the paving throws back, from below and from the side that the sun does not reach.
+constexpr float kBounceStrength = 0.22F;
 constexpr float kContactAlpha = 0.55F;
 /// Below this sine of the sun's elevation shadows would be longer than the courtyard.
 constexpr float kLowestSun = 0.05F;
@@ -50,12 +52,13 @@ void setLights(const SluiceSky& sky, const EngineScene& scene) {
     const Vec4 sun = opaque(sunColour(sky) * kSunStrength);
     const Vec4 to_sun{sky.to_sun[0], sky.to_sun[1], sky.to_sun[2], 0.0F};
     const Vec4 overhead{0.0F, 1.0F, 0.0F, 0.0F};
+    const Vec4 bounce = opaque(sunColour(sky) * kBounceStrength);
     const Vec4 dome = opaque(encodeSrgb({sky.zenith[0], sky.zenith[1], sky.zenith[2]}) * kSkyStrength);
     glLightModelfv(GL_LIGHT_MODEL_AMBIENT, ambient.data());
     glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_FALSE);
     glLightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, GL_FALSE);
     glLightModeli(GL_LIGHT_MODEL_COLOR_CONTROL, GL_SINGLE_COLOR);
-    for (GLenum light = GL_LIGHT2; light <= GL_LIGHT7; ++light) {
+    for (GLenum light = GL_LIGHT3; light <= GL_LIGHT7; ++light) {
         glDisable(light);
     }
     const auto set = [&](GLenum light, const Vec4& diffuse, const Vec4& direction) {
@@ -68,6 +71,7 @@ void setLights(const SluiceSky& sky, const EngineScene& scene) {
     };
     set(GL_LIGHT0, sun, to_sun);
     set(GL_LIGHT1, dome, overhead);
+    set(GL_LIGHT2, bounce, {-sky.to_sun[0], -0.4F, -sky.to_sun[2], 0.0F});
     glMaterialfv(GL_FRONT_AND_BACK, GL_SPECULAR, none.data());
     glMaterialfv(GL_FRONT_AND_BACK, GL_EMISSION, none.data());
     glColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);

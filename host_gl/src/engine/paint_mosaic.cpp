@@ -128,8 +128,8 @@ Image paintPaving(const NoiseField& noise) {
         Vec3 tile = mix(kCream, kSand, 0.75F * own) * (0.94F + 0.10F * hashUnit(xi, yi, 12));
         tile = tile * (1.0F + 0.22F * grain);
         tile = mix(tile, tile * 0.86F, std::clamp(vein, 0.0F, 1.0F) * 0.5F);
-        if ((xi + yi) % 2 == 0) {
-            // A rosette on every other octagon: star, ring and heart.
+        if (xi % 2 == 0 && yi % 2 == 0) {
+            // A rosette on every fourth octagon: star, ring and heart.
             const float star = starDistance(cx, cy);
             const float ring = std::hypot(cx, cy);
             tile = mix(kTerracotta * (0.95F + 0.3F * grain), tile, smoothStep(0.175F, 0.183F, star));

@@ -63,8 +63,13 @@ std::vector<T> readScreen(const Screen& screen, GLenum format, GLenum type, std:
     const FramebufferGuard framebuffer;
     const PixelGuard pixels;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, screen.framebuffer());
+    // The read buffer is the framebuffer's own state, and a caller may have deselected it.
+    GLint read_buffer = GL_NONE;
+    glGetIntegerv(GL_READ_BUFFER, &read_buffer);
+    glReadBuffer(GL_COLOR_ATTACHMENT0);
     glReadPixels(0, 0, static_cast<GLsizei>(screen.width()), static_cast<GLsizei>(screen.height()), format, type,
                  values.data());
+    glReadBuffer(static_cast<GLenum>(read_buffer));
     return values;
 }
 
