@@ -79,9 +79,9 @@ struct Imported {
 
     /// Copies between the image and a buffer of its own, whole, through GENERAL.
     Status copy(std::vector<std::byte>& texels, const SluiceImageExport& from, bool write) const {
-        Result<Buffer> staging = Buffer::create(
-            device, {texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                     BufferPlace::Readback, "fake host"});
+        Result<Buffer> staging =
+            Buffer::create(device, {texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                    BufferPlace::Readback, "fake host"});
         if (!staging) {
             return staging.error();
         }

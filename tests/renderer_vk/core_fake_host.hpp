@@ -42,9 +42,9 @@ class FakeHost {
     [[nodiscard]] std::vector<SeenEvent> events() const;
     [[nodiscard]] std::vector<std::string> log() const;
 
-    int fail_share_after = -1;               ///< the n-th share_image fails; -1: none
-    std::uint32_t fail_canary_formats = 0;   ///< bit per format: the host says that it saw wrong texels
-    std::uint32_t corrupt_canary_formats = 0;///< bit per format: the host writes back a wrong pattern
+    int fail_share_after = -1;                 ///< the n-th share_image fails; -1: none
+    std::uint32_t fail_canary_formats = 0;     ///< bit per format: the host says that it saw wrong texels
+    std::uint32_t corrupt_canary_formats = 0;  ///< bit per format: the host writes back a wrong pattern
     int shares = 0;
     int canaries = 0;
 
@@ -84,7 +84,9 @@ class TestRenderer {
     SluiceError error_{};
 };
 
-[[nodiscard]] inline const SluiceRendererApi& api() { return *rendererApi(SLUICE_ABI_VERSION); }
+[[nodiscard]] inline const SluiceRendererApi& api() {
+    return *rendererApi(SLUICE_ABI_VERSION);
+}
 
 /// Frame k as a host would send it: a camera at the origin, water, 1 set per `image_sets`.
 [[nodiscard]] SluiceFrame frameOf(std::uint64_t k, std::uint32_t image_sets, SluiceView view = SLUICE_VIEW_ECHO);

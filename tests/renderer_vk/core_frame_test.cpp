@@ -20,6 +20,7 @@ class Frames : public ::testing::Test {
   protected:
     void start(bool tracing, SluiceTimelineKind kind = SLUICE_TIMELINE_BRIDGED, std::uint32_t sets = 2,
                std::uint32_t validation = 1) {
+        renderer.reset();  // before the host that it refers to
         host = std::make_unique<FakeHost>(tracing);
         info = host->createInfo();
         info.timeline = static_cast<std::uint32_t>(kind);
@@ -193,7 +194,8 @@ TEST_F(Frames, NewParticlesDoNotDisturbFramesInFlight) {
     const auto particlesOf = [&](std::uint64_t k) {
         const SluiceFrameStats found = stats(k);
         const auto* end = found.passes + found.pass_count;
-        const auto* pass = std::find_if(found.passes, end, [](const SluicePassStats& p) { return p.is_particles != 0; });
+        const auto* pass =
+            std::find_if(found.passes, end, [](const SluicePassStats& p) { return p.is_particles != 0; });
         return pass == end ? 0 : pass->elements;
     };
     EXPECT_EQ(particlesOf(1), 300U);

@@ -47,9 +47,8 @@ TEST(Plugin, ServesItsMajorOnly) {
     EXPECT_STREQ(api->name, "sluice-renderer-vk");
     EXPECT_NE(api->version, nullptr);
     EXPECT_TRUE(api->describe && api->explain && api->create && api->info && api->resize && api->set_particles &&
-                api->set_environment && api->submit_frame && api->poll && api->timeline_signal &&
-                api->timeline_wait && api->timeline_value && api->timeline_export && api->probe_format &&
-                api->destroy);
+                api->set_environment && api->submit_frame && api->poll && api->timeline_signal && api->timeline_wait &&
+                api->timeline_value && api->timeline_export && api->probe_format && api->destroy);
 }
 
 TEST(Plugin, ExplainsWithoutADevice) {

@@ -10,8 +10,8 @@
 
 namespace sluice::vk {
 
-/// Usage of a shared image of `format`: all that either side may do with it and the device supports, because OpenGL assumes
-/// that the image was made for everything it can do (GL_EXT_external_objects, issue 13).
+/// Usage of a shared image of `format`: all that either side may do with it and the device supports, because OpenGL
+/// assumes that the image was made for everything it can do (GL_EXT_external_objects, issue 13).
 [[nodiscard]] VkImageUsageFlags sharedUsage(SluiceFormat format, VkFormatFeatureFlags features);
 /// sharedUsage with the features looked up.
 [[nodiscard]] VkImageUsageFlags sharedUsage(const InstanceFunctions& fn, VkPhysicalDevice device, SluiceFormat format);

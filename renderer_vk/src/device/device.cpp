@@ -61,8 +61,8 @@ Status createInstance(Device& device, bool validation) {
     }
     loadInstanceFunctions(device.instance_fn, device.instance, vkGetInstanceProcAddr);
     if (validation) {
-        const VkResult result = device.instance_fn.vkCreateDebugUtilsMessengerEXT(device.instance, &messenger, nullptr,
-                                                                                  &device.messenger);
+        const VkResult result =
+            device.instance_fn.vkCreateDebugUtilsMessengerEXT(device.instance, &messenger, nullptr, &device.messenger);
         if (result != VK_SUCCESS) {
             return vulkanError(result, "vkCreateDebugUtilsMessengerEXT");
         }
@@ -107,8 +107,8 @@ Status choosePhysical(Device& device, const DeviceRequest& request) {
 /// The device's clock and CLOCK_MONOTONIC can be read together.
 bool calibrates(const Device& device) {
     const auto domains = device.instance_fn.vkGetPhysicalDeviceCalibrateableTimeDomainsEXT;
-    if (domains == nullptr || !hasExtension(device.instance_fn, device.physical,
-                                            VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) {
+    if (domains == nullptr ||
+        !hasExtension(device.instance_fn, device.physical, VK_EXT_CALIBRATED_TIMESTAMPS_EXTENSION_NAME)) {
         return false;
     }
     std::uint32_t count = 0;
@@ -247,8 +247,12 @@ void Device::name(VkObjectType type, std::uint64_t object, const char* text) con
     instance_fn.vkSetDebugUtilsObjectNameEXT(handle, &info);
 }
 
-void Device::log(SluiceLogLevel level, std::string_view message) const { logLine(services, level, message); }
+void Device::log(SluiceLogLevel level, std::string_view message) const {
+    logLine(services, level, message);
+}
 
-std::uint32_t Device::validationMessages() const { return messages->count.load(std::memory_order_relaxed); }
+std::uint32_t Device::validationMessages() const {
+    return messages->count.load(std::memory_order_relaxed);
+}
 
 }  // namespace sluice::vk

@@ -31,14 +31,14 @@ struct DeviceFeatures {
     bool storage_write_without_format = false;
     bool storage_extended_formats = false;  ///< r16f and friends as storage images
     bool scalar_block_layout = false;
-    bool push_descriptor = false;           ///< VK_KHR_push_descriptor
-    bool calibrated_timestamps = false;     ///< device and CLOCK_MONOTONIC
+    bool push_descriptor = false;        ///< VK_KHR_push_descriptor
+    bool calibrated_timestamps = false;  ///< device and CLOCK_MONOTONIC
 };
 
-/// Owns the instance, the device and its single graphics+compute queue. Pinned in memory: keep it by unique_ptr and pass
-/// `const Device&`. Call device functions through `fn`: `device.fn.vkCmdDispatch(commands, x, y, z)`.
-/// The queue is used on the thread that owns the renderer; `fn` may be used from any thread within Vulkan's own rules.
-/// Enabled always: Vulkan 1.3 with synchronization2, dynamicRendering, maintenance4, timelineSemaphore, hostQueryReset.
+/// Owns the instance, the device and its single graphics+compute queue. Pinned in memory: keep it by unique_ptr and
+/// pass `const Device&`. Call device functions through `fn`: `device.fn.vkCmdDispatch(commands, x, y, z)`. The queue is
+/// used on the thread that owns the renderer; `fn` may be used from any thread within Vulkan's own rules. Enabled
+/// always: Vulkan 1.3 with synchronization2, dynamicRendering, maintenance4, timelineSemaphore, hostQueryReset.
 struct Device {
     static Result<std::unique_ptr<Device>> create(const DeviceRequest& request);
 
@@ -80,7 +80,8 @@ struct Device {
     /// Warnings and errors of the validation layer since creation; 0 when validation is off.
     [[nodiscard]] std::uint32_t validationMessages() const;
 
-    /// Bytes of exportable images that the CPU has moved through uploadImage and downloadImage. Frames must not add to it.
+    /// Bytes of exportable images that the CPU has moved through uploadImage and downloadImage. Frames must not add to
+    /// it.
     mutable std::atomic<std::uint64_t> shared_bytes_by_cpu{0};
 
     const SluiceHostServices* services = nullptr;
@@ -91,7 +92,8 @@ struct Device {
 /// The name of a VkResult, "VK_ERROR_DEVICE_LOST".
 [[nodiscard]] std::string_view resultName(VkResult result);
 
-/// A failed call as an Error: DEVICE_LOST, OUT_OF_MEMORY or INTERNAL by `result`. `thing` names the call and its object.
+/// A failed call as an Error: DEVICE_LOST, OUT_OF_MEMORY or INTERNAL by `result`. `thing` names the call and its
+/// object.
 [[nodiscard]] Error vulkanError(VkResult result, std::string_view thing);
 
 }  // namespace sluice::vk

@@ -116,8 +116,8 @@ void fullBarrier(const Device& device, VkCommandBuffer commands, VkImage image, 
 
 Status uploadImage(const Device& device, const Image& image, std::span<const std::byte> texels,
                    VkImageLayout layout_after) {
-    Result<Buffer> staging = Buffer::create(
-        device, {texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::Upload, "image upload"});
+    Result<Buffer> staging =
+        Buffer::create(device, {texels.size(), VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::Upload, "image upload"});
     if (!staging) {
         return staging.error();
     }

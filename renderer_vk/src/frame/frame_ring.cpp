@@ -79,8 +79,8 @@ Status FrameRing::waitForSlot(std::uint32_t image_set) {
     const SluiceResult result = timeline_.wait(slot.stats.frame, kPatienceNs);
     if (result == SLUICE_TIMEOUT) {
         return Error{SLUICE_ERROR_INTERNAL, fmt::format("frame {}", slot.stats.frame),
-                     fmt::format("not finished after {} s, so its image set {} is not free", kPatienceNs / 1'000'000'000,
-                                 image_set),
+                     fmt::format("not finished after {} s, so its image set {} is not free",
+                                 kPatienceNs / 1'000'000'000, image_set),
                      "check that the host signals the value that it promised for that frame"};
     }
     if (result != SLUICE_OK) {
@@ -188,7 +188,9 @@ Status FrameRing::submit(const SluiceFrame& frame, const SharedImages& images,
     return {};
 }
 
-bool FrameRing::finished(const Slot& slot) const { return timeline_.wait(slot.stats.frame, 0) == SLUICE_OK; }
+bool FrameRing::finished(const Slot& slot) const {
+    return timeline_.wait(slot.stats.frame, 0) == SLUICE_OK;
+}
 
 SluiceResult FrameRing::poll(std::uint64_t frame, SluiceFrameStats& stats) {
     for (const auto& slot : slots_) {

@@ -46,8 +46,8 @@ class FrameRing {
     [[nodiscard]] Status submit(const SluiceFrame& frame, const SharedImages& images,
                                 const std::shared_ptr<ParticleSet>& particles, const PassRecorder& record);
 
-    /// Fills everything but struct_size and validation_messages. NOT_READY while it runs, INVALID_ARGUMENT if the frame is
-    /// not among the last ones.
+    /// Fills everything but struct_size and validation_messages. NOT_READY while it runs, INVALID_ARGUMENT if the frame
+    /// is not among the last ones.
     [[nodiscard]] SluiceResult poll(std::uint64_t frame, SluiceFrameStats& stats);
 
     /// Collects every finished frame, so that its events reach the trace.
@@ -61,9 +61,9 @@ class FrameRing {
         FrameTimer timer;
         std::shared_ptr<ParticleSet> particles;
         bool running = false;
-        bool uploads = false;             ///< this frame copies the particles from staging
-        std::uint64_t submitted_ns = 0;   ///< for devices without timestamps
-        std::uint64_t wait_value = 0;     ///< 0: waited for nothing
+        bool uploads = false;            ///< this frame copies the particles from staging
+        std::uint64_t submitted_ns = 0;  ///< for devices without timestamps
+        std::uint64_t wait_value = 0;    ///< 0: waited for nothing
         std::uint64_t cpu_bytes_before = 0;
         std::vector<std::uint64_t> image_bytes;  ///< of each shared image, for its acquire and release
         SluiceFrameStats stats{};

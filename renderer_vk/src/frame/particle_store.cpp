@@ -53,9 +53,9 @@ Result<std::shared_ptr<ParticleSet>> createParticleSet(const Device& device, con
                      fmt::format("use at most {} particles", limit / kPositionBytes)};
     }
     const bool direct = writesLocalMemory(device);
-    Result<Buffer> upload = Buffer::create(
-        device, {bytes, direct ? kUsage : VkBufferUsageFlags{VK_BUFFER_USAGE_TRANSFER_SRC_BIT}, BufferPlace::Upload,
-                 direct ? "particle positions" : "particle upload"});
+    Result<Buffer> upload =
+        Buffer::create(device, {bytes, direct ? kUsage : VkBufferUsageFlags{VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+                                BufferPlace::Upload, direct ? "particle positions" : "particle upload"});
     if (!upload) {
         return upload.error();
     }

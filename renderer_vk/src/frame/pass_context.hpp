@@ -33,11 +33,11 @@ struct ParticleBuffers {
 
 /// What a pass tells of itself when it starts.
 struct PassLabel {
-    const char* name = "";           ///< at most 31 characters; string literal
-    std::uint64_t elements = 0;      ///< particles or pixels
-    std::uint64_t bytes = 0;         ///< compulsory traffic
+    const char* name = "";       ///< at most 31 characters; string literal
+    std::uint64_t elements = 0;  ///< particles or pixels
+    std::uint64_t bytes = 0;     ///< compulsory traffic
     bool elements_are_particles = false;
-    std::uint32_t dispatches = 1;    ///< draws or dispatches it records
+    std::uint32_t dispatches = 1;  ///< draws or dispatches it records
 };
 
 /// Timestamps and statistics around each pass; frame/ implements it.

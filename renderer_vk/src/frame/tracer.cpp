@@ -5,7 +5,9 @@
 
 namespace sluice::vk {
 
-std::uint64_t Tracer::now() const { return on() ? monotonicNanoseconds() : 0; }
+std::uint64_t Tracer::now() const {
+    return on() ? monotonicNanoseconds() : 0;
+}
 
 void Tracer::emit(const TracedEvent& event) const {
     if (!on()) {

@@ -13,9 +13,9 @@
 namespace sluice::vk {
 
 enum class BufferPlace : std::uint8_t {
-    Device,  ///< device-local; filled by a copy
-    Upload,  ///< host-visible and coherent, device-local where possible; mapped
-    Readback ///< host-visible and coherent, cached where possible; mapped
+    Device,   ///< device-local; filled by a copy
+    Upload,   ///< host-visible and coherent, device-local where possible; mapped
+    Readback  ///< host-visible and coherent, cached where possible; mapped
 };
 
 struct BufferDesc {

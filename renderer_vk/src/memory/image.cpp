@@ -108,7 +108,9 @@ Result<Image> Image::create(const Device& device, const ImageDesc& desc) {
     return out;
 }
 
-Image::Image(Image&& other) noexcept { *this = std::move(other); }
+Image::Image(Image&& other) noexcept {
+    *this = std::move(other);
+}
 
 Image& Image::operator=(Image&& other) noexcept {
     if (this != &other) {
@@ -126,7 +128,9 @@ Image& Image::operator=(Image&& other) noexcept {
     return *this;
 }
 
-Image::~Image() { reset(); }
+Image::~Image() {
+    reset();
+}
 
 void Image::reset() {
     if (device_ == nullptr) {
@@ -141,7 +145,9 @@ void Image::reset() {
     memory_ = VK_NULL_HANDLE;
 }
 
-VkImageAspectFlags Image::aspect() const { return aspectOf(format_); }
+VkImageAspectFlags Image::aspect() const {
+    return aspectOf(format_);
+}
 
 Result<UniqueFd> Image::exportFd() const {
     if (!exportable_) {

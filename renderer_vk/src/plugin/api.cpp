@@ -17,7 +17,9 @@
 namespace sluice::vk {
 namespace {
 
-Error isNull(const char* name) { return {SLUICE_ERROR_INVALID_ARGUMENT, name, "it is NULL", ""}; }
+Error isNull(const char* name) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, name, "it is NULL", ""};
+}
 
 /// Fills a struct of the caller's. One with a struct_size keeps its end; 0 stands for the struct of this ABI.
 template <typename T>
@@ -102,13 +104,14 @@ SluiceResult create(const SluiceHostServices* host, const SluiceCreateInfo* info
 }
 
 SluiceResult info(SluiceRenderer* renderer, SluiceRendererInfo* out) {
-    return guarded(nullptr,
-                   [&]() -> Status { return renderer == nullptr ? isNull("renderer") : fill(out, renderer->info(), "info"); });
+    return guarded(nullptr, [&]() -> Status {
+        return renderer == nullptr ? isNull("renderer") : fill(out, renderer->info(), "info");
+    });
 }
 
 SluiceResult resize(SluiceRenderer* renderer, std::uint32_t width, std::uint32_t height, SluiceError* error) {
-    return guarded(error,
-                   [&]() -> Status { return renderer == nullptr ? isNull("renderer") : renderer->resize(width, height); });
+    return guarded(
+        error, [&]() -> Status { return renderer == nullptr ? isNull("renderer") : renderer->resize(width, height); });
 }
 
 SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* particles, SluiceError* error) {
@@ -157,8 +160,9 @@ SluiceResult poll(SluiceRenderer* renderer, std::uint64_t frame, SluiceFrameStat
 }
 
 SluiceResult timelineSignal(SluiceRenderer* renderer, std::uint64_t value) {
-    return guarded(
-        nullptr, [&]() -> Status { return renderer == nullptr ? isNull("renderer") : renderer->timeline().signal(value); });
+    return guarded(nullptr, [&]() -> Status {
+        return renderer == nullptr ? isNull("renderer") : renderer->timeline().signal(value);
+    });
 }
 
 SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns) {
@@ -167,8 +171,8 @@ SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::ui
 
 Status checkDirection(std::uint32_t direction) {
     if (direction > SLUICE_RENDERER_TO_HOST) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "direction",
-                     fmt::format("{} is not a SluiceDirection", direction), ""};
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "direction", fmt::format("{} is not a SluiceDirection", direction),
+                     ""};
     }
     return {};
 }
@@ -240,10 +244,25 @@ void destroy(SluiceRenderer* renderer) {
     });
 }
 
-constexpr SluiceRendererApi kApi = {
-    sizeof(SluiceRendererApi), SLUICE_ABI_VERSION, "sluice-renderer-vk", SLUICE_RENDERER_VERSION,
-    describe, explainNeeds, create, info, resize, setParticles, setEnvironment, submitFrame, poll, timelineSignal,
-    timelineWait, timelineValue, timelineExport, probeFormat, destroy};
+constexpr SluiceRendererApi kApi = {sizeof(SluiceRendererApi),
+                                    SLUICE_ABI_VERSION,
+                                    "sluice-renderer-vk",
+                                    SLUICE_RENDERER_VERSION,
+                                    describe,
+                                    explainNeeds,
+                                    create,
+                                    info,
+                                    resize,
+                                    setParticles,
+                                    setEnvironment,
+                                    submitFrame,
+                                    poll,
+                                    timelineSignal,
+                                    timelineWait,
+                                    timelineValue,
+                                    timelineExport,
+                                    probeFormat,
+                                    destroy};
 
 }  // namespace
 

@@ -69,8 +69,8 @@ Status checkCreateHeader(const SluiceCreateInfo* info) {
         return status;
     }
     if (info->host.device_uuid_count > SLUICE_MAX_DEVICE_UUIDS) {
-        return invalid("info.host.device_uuid_count", fmt::format("{} exceeds {}", info->host.device_uuid_count,
-                                                                  SLUICE_MAX_DEVICE_UUIDS));
+        return invalid("info.host.device_uuid_count",
+                       fmt::format("{} exceeds {}", info->host.device_uuid_count, SLUICE_MAX_DEVICE_UUIDS));
     }
     return {};
 }
@@ -139,7 +139,9 @@ Status checkEnvironment(const SluiceEnvironment* environment) {
     return checkSize(environment->width, environment->height);
 }
 
-Status checkNeeds(const SluiceSceneNeeds* needs) { return checkStruct(needs, "needs"); }
+Status checkNeeds(const SluiceSceneNeeds* needs) {
+    return checkStruct(needs, "needs");
+}
 
 Status checkFrameOrder(const SluiceFrame* frame, const FrameExpectation& expected) {
     if (Status status = checkStruct(frame, "frame"); !status) {
@@ -152,7 +154,8 @@ Status checkFrameOrder(const SluiceFrame* frame, const FrameExpectation& expecte
                        "number frames from 1 without gaps");
     }
     if (const std::uint32_t set = imageSetOf(frame->frame, expected.image_sets); frame->image_set != set) {
-        return invalid("frame.image_set", fmt::format("{} is not (frame - 1) % image_sets = {}", frame->image_set, set));
+        return invalid("frame.image_set",
+                       fmt::format("{} is not (frame - 1) % image_sets = {}", frame->image_set, set));
     }
     if (frame->wait_value != gbufferWritten(frame->frame)) {
         return invalid("frame.wait_value",
@@ -179,10 +182,14 @@ Status checkFrameValues(const SluiceFrame& frame, const FrameExpectation& expect
     const SluiceCamera& camera = frame.camera;
     const SluiceSky& sky = frame.sky;
     const Field fields[] = {
-        {camera.view, "camera.view"},   {camera.projection, "camera.projection"},
-        {{&camera.near_plane, 1}, "camera.near_plane"}, {{&camera.far_plane, 1}, "camera.far_plane"},
-        {sky.zenith, "sky.zenith"},     {sky.horizon, "sky.horizon"},
-        {sky.ground, "sky.ground"},     {sky.to_sun, "sky.to_sun"},
+        {camera.view, "camera.view"},
+        {camera.projection, "camera.projection"},
+        {{&camera.near_plane, 1}, "camera.near_plane"},
+        {{&camera.far_plane, 1}, "camera.far_plane"},
+        {sky.zenith, "sky.zenith"},
+        {sky.horizon, "sky.horizon"},
+        {sky.ground, "sky.ground"},
+        {sky.to_sun, "sky.to_sun"},
         {sky.sun_radiance, "sky.sun_radiance"},
     };
     for (const Field& field : fields) {

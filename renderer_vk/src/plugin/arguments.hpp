@@ -26,7 +26,7 @@ struct FrameExpectation {
     std::uint64_t submitted = 0;  ///< last frame that was submitted
     std::uint64_t attempted = 0;  ///< last frame that came in order, whether or not it then failed
     std::uint32_t image_sets = 1;
-    std::uint32_t outputs = 0;    ///< FLUID_* roles that are shared
+    std::uint32_t outputs = 0;  ///< FLUID_* roles that are shared
 };
 /// The frame's place in the protocol: number, values, image set. The fluid is the plan's to check.
 [[nodiscard]] Status checkFrameOrder(const SluiceFrame* frame, const FrameExpectation& expected);

@@ -80,9 +80,9 @@ Status proveFormat(const Device& device, const SluiceHostServices& host, SluiceF
         return Error{SLUICE_ERROR_UNSUPPORTED, std::string(row->name),
                      fmt::format("'{}' cannot export images of it", device.properties.deviceName), ""};
     }
-    Result<Image> made = Image::create(device, {static_cast<VkFormat>(row->vk_format), width, height,
-                                                sharedUsage(device.instance_fn, device.physical, format), true,
-                                                "canary"});
+    Result<Image> made =
+        Image::create(device, {static_cast<VkFormat>(row->vk_format), width, height,
+                               sharedUsage(device.instance_fn, device.physical, format), true, "canary"});
     if (!made) {
         return made.error();
     }

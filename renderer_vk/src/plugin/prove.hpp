@@ -17,7 +17,8 @@ namespace sluice::vk {
 [[nodiscard]] Status proveFormat(const Device& device, const SluiceHostServices& host, SluiceFormat format,
                                  std::uint32_t width, std::uint32_t height, std::uint32_t seed);
 
-/// GL packs D24S8 with depth in the high 24 bits, Vulkan copies the depth aspect in the low 24: one to the other, in place.
+/// GL packs D24S8 with depth in the high 24 bits, Vulkan copies the depth aspect in the low 24: one to the other, in
+/// place.
 void depth24FromGl(std::vector<std::byte>& texels);
 void depth24ToGl(std::vector<std::byte>& texels);
 

@@ -73,10 +73,9 @@ Result<std::unique_ptr<SluiceRenderer>> SluiceRenderer::create(const SluiceHostS
         return status.error();
     }
     renderer->device_->log(
-        SLUICE_LOG_INFO, fmt::format("renderer on '{}', {} timeline, {} image sets of {}x{}",
-                                     renderer->device_->properties.deviceName,
-                                     sluice::toString(agreement.value().timeline), info.image_sets, info.width,
-                                     info.height));
+        SLUICE_LOG_INFO,
+        fmt::format("renderer on '{}', {} timeline, {} image sets of {}x{}", renderer->device_->properties.deviceName,
+                    sluice::toString(agreement.value().timeline), info.image_sets, info.width, info.height));
     return renderer;
 }
 

@@ -33,7 +33,9 @@ Result<UniqueFd> exportSemaphore(const Device& device, VkSemaphore semaphore) {
     return UniqueFd(fd);
 }
 
-BinaryPool::~BinaryPool() { retireThrough(UINT64_MAX); }
+BinaryPool::~BinaryPool() {
+    retireThrough(UINT64_MAX);
+}
 
 VkSemaphore BinaryPool::find(std::uint64_t value) const {
     const auto found = semaphores_.find(value);

@@ -25,8 +25,8 @@ class BinaryPool {
     [[nodiscard]] VkSemaphore find(std::uint64_t value) const;
     /// The semaphore of `value`, created on first use.
     [[nodiscard]] Result<VkSemaphore> obtain(std::uint64_t value);
-    /// A new opaque fd for the semaphore of `value`. Both sides then refer to one payload, so ours may be destroyed while
-    /// the other side still uses its own.
+    /// A new opaque fd for the semaphore of `value`. Both sides then refer to one payload, so ours may be destroyed
+    /// while the other side still uses its own.
     [[nodiscard]] Result<UniqueFd> exportFd(std::uint64_t value);
     /// Destroys the semaphores of all values up to `value`; the queue must be done with them.
     void retireThrough(std::uint64_t value);

@@ -175,8 +175,7 @@ void RendererTimeline::force(std::uint64_t value) {
     auto info = vkStruct<VkSemaphoreSignalInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO);
     info.semaphore = host_to_renderer_;
     info.value = value;
-    if (value > std::max(signalled_, forced_) &&
-        device_.fn.vkSignalSemaphore(device_.handle, &info) == VK_SUCCESS) {
+    if (value > std::max(signalled_, forced_) && device_.fn.vkSignalSemaphore(device_.handle, &info) == VK_SUCCESS) {
         forced_ = value;
     }
 }

@@ -45,8 +45,8 @@ class RendererTimeline {
     [[nodiscard]] SluiceTimelineKind kind() const { return kind_; }
 
     /// What the submission of a frame waits for and signals. With `skip_wait`, or UNSYNCHRONISED, it waits for nothing.
-    /// BINARY fails if the host has not asked for the semaphore of `wait_value`; FINISH if the host has not signalled it,
-    /// because the wait for the queue that follows would never end.
+    /// BINARY fails if the host has not asked for the semaphore of `wait_value`; FINISH if the host has not signalled
+    /// it, because the wait for the queue that follows would never end.
     [[nodiscard]] Result<SubmitSemaphores> forSubmit(std::uint64_t wait_value, std::uint64_t signal_value,
                                                      bool skip_wait);
     /// The submission that forSubmit was asked for has reached the queue.
@@ -82,7 +82,7 @@ class RendererTimeline {
     std::uint64_t last_signal_ = 0;  ///< highest renderer value that a submission will signal
     std::mutex signal_lock_;         ///< guards signalled_ and forced_
     std::uint64_t signalled_ = 0;
-    std::uint64_t forced_ = 0;       ///< up to here drain() has signalled for the host; late signals are accepted
+    std::uint64_t forced_ = 0;  ///< up to here drain() has signalled for the host; late signals are accepted
 };
 
 }  // namespace sluice::vk
