@@ -23,8 +23,12 @@ void main() {
     const vec3 eye = (frame.view * vec4(world, 1.0)).xyz;
     out_eye = eye;
 
-    const vec4 bounds = ndcBounds(eye, splatRadius());
     const float scale = SCALED != 0u ? frame.thickness.x : 1.0;
+    // The target may reach beyond the picture by less than a texel, whose centre can lie on the picture's very edge.
+    const vec2 target = ceil(frame.size.xy / scale);
+    const vec2 beyond = 2.0 * target * scale * frame.size.zw - 1.0;
+    vec4 bounds = ndcBounds(eye, splatRadius());
+    bounds = vec4(max(bounds.xy, vec2(-1.0)), min(bounds.zw, beyond));
     // Texel centres inside the bounds; a sphere between them costs no triangle.
     const vec4 texels = (bounds * 0.5 + 0.5) * frame.size.xyxy / scale;
     const bool touches = all(lessThanEqual(ceil(texels.xy - 0.5), floor(texels.zw - 0.5)));
@@ -40,5 +44,6 @@ void main() {
         along = vec2(corner == 1u || corner == 2u || corner == 4u ? 1.0 : 0.0,
                      corner == 2u || corner == 4u || corner == 5u ? 1.0 : 0.0);
     }
-    gl_Position = vec4(bounds.xy + along * (bounds.zw - bounds.xy), 0.5, 1.0);
+    const vec2 texel = texels.xy + along * (texels.zw - texels.xy);
+    gl_Position = vec4(2.0 * texel / target - 1.0, 0.5, 1.0);
 }

@@ -30,7 +30,7 @@ vec2 slopeBounds(float x, float depth, float r) {
     return bounds;
 }
 
-// The screen rectangle of a sphere in NDC: (low.xy, high.xy), clipped to the screen; low > high if it has none.
+// The screen rectangle of a sphere in NDC: (low.xy, high.xy); low > high if it has none.
 vec4 ndcBounds(vec3 eye, float r) {
     const float depth = -eye.z;
     if (depth + r <= nearPlane() || depth - r >= farPlane()) {
@@ -42,7 +42,7 @@ vec4 ndcBounds(vec3 eye, float r) {
     const vec2 margin = 0.02 * frame.size.zw;
     const vec2 low = vec2(min(x.x, x.y), min(y.x, y.y)) - margin;
     const vec2 high = vec2(max(x.x, x.y), max(y.x, y.y)) + margin;
-    return vec4(max(low, vec2(-1.0)), min(high, vec2(1.0)));
+    return vec4(low, high);
 }
 
 // The depths at which the ray `ray` (z = -1) enters and leaves a sphere, or x > y if it misses. The discriminant is taken

@@ -46,7 +46,9 @@ Plan planOf(const SluiceSceneNeeds& needs) {
     return plan.value();
 }
 
-bool shared(PlanImage image) { return image >= PlanImage::HostColour; }
+bool shared(PlanImage image) {
+    return image >= PlanImage::HostColour;
+}
 
 std::set<PassId> passesOf(const Plan& plan) {
     std::set<PassId> ids;

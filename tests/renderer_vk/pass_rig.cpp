@@ -192,8 +192,10 @@ RigResult PassRig::render(const RigScene& scene) {
     frame.fluid = scene.fluid;
     const bool want_normal = (scene.outputs & SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL)) != 0;
     const bool want_thickness = (scene.outputs & SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS)) != 0;
-    FrameTargets targets{host_colour.ref(),  host_depth.ref(),
-                         fluid_colour.ref(), fluid_depth.ref(),
+    FrameTargets targets{host_colour.ref(),
+                         host_depth.ref(),
+                         fluid_colour.ref(),
+                         fluid_depth.ref(),
                          want_normal ? fluid_normal.ref() : ImageRef{},
                          want_thickness ? fluid_thickness.ref() : ImageRef{},
                          scene.encoding};

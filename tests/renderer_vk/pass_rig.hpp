@@ -45,7 +45,7 @@ struct RigScene {
     std::vector<std::uint8_t> host_colour;  ///< empty: mid grey
     std::vector<float> host_depth;          ///< empty: nothing drawn
     SluiceDepthEncoding encoding = SLUICE_DEPTH_WINDOW;
-    std::vector<float> environment;         ///< RGB triples; empty: procedural sky
+    std::vector<float> environment;  ///< RGB triples; empty: procedural sky
     std::uint32_t environment_width = 0, environment_height = 0;
 };
 
@@ -53,14 +53,14 @@ struct RigScene {
 struct RigResult {
     Plan plan;
     std::vector<std::array<float, 4>> colour, normal_out;
-    std::vector<float> depth, thickness_out;          ///< FLUID_DEPTH, FLUID_THICKNESS
-    std::vector<float> surface;                       ///< metres, final depth
-    std::vector<float> depth_a;                       ///< metres; the splat if there is no filter
-    std::vector<std::array<float, 4>> normal;         ///< decoded from half floats
-    std::vector<float> thickness;                     ///< metres, reduced resolution
+    std::vector<float> depth, thickness_out;   ///< FLUID_DEPTH, FLUID_THICKNESS
+    std::vector<float> surface;                ///< metres, final depth
+    std::vector<float> depth_a;                ///< metres; the splat if there is no filter
+    std::vector<std::array<float, 4>> normal;  ///< decoded from half floats
+    std::vector<float> thickness;              ///< metres, reduced resolution
     std::uint32_t thickness_width = 0, thickness_height = 0;
     std::vector<std::pair<std::string, double>> milliseconds;  ///< per pass, where the device has timestamps
-    std::string failure;                              ///< empty on success
+    std::string failure;                                       ///< empty on success
 };
 
 /// One device for all tests of a program, with synchronisation validation.

@@ -14,7 +14,9 @@ double encoded(double linear) {
     const double c = std::clamp(linear, 0.0, 1.0);
     return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
 }
-double decoded(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
+double decoded(double c) {
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
 
 TEST(Shade, EmptyFrameHasNoCoverageAndDepthOne) {
     RigScene scene = emptyScene();
@@ -84,8 +86,8 @@ TEST(Shade, AFlatBackgroundIsAbsorbedByBeersLawAndReflectedBySchlick) {
         if (result.colour[i][3] == 0.0F) {
             continue;
         }
-        const Vec3 ray = frame.ray(static_cast<double>(i % scene.width) + 0.5,
-                                   static_cast<double>(i / scene.width) + 0.5);
+        const Vec3 ray =
+            frame.ray(static_cast<double>(i % scene.width) + 0.5, static_cast<double>(i / scene.width) + 0.5);
         const double length = std::sqrt(ray[0] * ray[0] + ray[1] * ray[1] + 1);
         Vec3 v{-ray[0] / length, -ray[1] / length, 1 / length};
         Vec3 n{double{result.normal[i][0]}, double{result.normal[i][1]}, double{result.normal[i][2]}};
@@ -109,14 +111,12 @@ TEST(Shade, AFlatBackgroundIsAbsorbedByBeersLawAndReflectedBySchlick) {
         // The view matrix is the identity here: the mirrored direction in the world is that of the eye.
         const double up = 2 * nv * n[1] - v[1];
         const double fresnel = schlick(nv);
-        const double lobe =
-            nl > 0 ? std::pow(std::max(nh, 1e-6), double{fluid.specular_power}) * schlick(vh) : 0.0;
+        const double lobe = nl > 0 ? std::pow(std::max(nh, 1e-6), double{fluid.specular_power}) * schlick(vh) : 0.0;
         const double path = double{result.thickness_out[i]};
         for (std::size_t k = 0; k < 3; ++k) {
             const double horizon = double{scene.sky.horizon[k]};
-            const double sky = up >= 0
-                                   ? horizon + (double{scene.sky.zenith[k]} - horizon) * std::sqrt(up)
-                                   : horizon + (double{scene.sky.ground[k]} - horizon) * std::min(1.0, -4 * up);
+            const double sky = up >= 0 ? horizon + (double{scene.sky.zenith[k]} - horizon) * std::sqrt(up)
+                                       : horizon + (double{scene.sky.ground[k]} - horizon) * std::min(1.0, -4 * up);
             const double transmitted = std::exp(-double{fluid.absorption[k]} * path);
             const double expected =
                 fresnel * sky + lobe * double{scene.sky.sun_radiance[k]} +

@@ -33,11 +33,17 @@ void expectMatchesReference(const RigScene& scene, double outline_pixels = 0.05)
     EXPECT_GT(compared, expected.size() / 3) << "the outline's tolerance has eaten the test";
 }
 
-TEST(SplatDepth, MatchesEverySphereOfACloudThroughAnOffCentreProjection) { expectMatchesReference(cloud(300, 0.1F)); }
+TEST(SplatDepth, MatchesEverySphereOfACloudThroughAnOffCentreProjection) {
+    expectMatchesReference(cloud(300, 0.1F));
+}
 
-TEST(SplatDepth, MatchesSubPixelSpheres) { expectMatchesReference(cloud(4000, 0.004F), 0.02); }
+TEST(SplatDepth, MatchesSubPixelSpheres) {
+    expectMatchesReference(cloud(4000, 0.004F), 0.02);
+}
 
-TEST(SplatDepth, MatchesHugeSpheres) { expectMatchesReference(cloud(6, 0.9F)); }
+TEST(SplatDepth, MatchesHugeSpheres) {
+    expectMatchesReference(cloud(6, 0.9F));
+}
 
 TEST(SplatDepth, ShowsTheNearPlaneFromInsideASphere) {
     RigScene scene = withoutFilter(emptyScene());

@@ -32,8 +32,8 @@ void expectNormalsMatch(const RigScene& scene) {
             // The difference of two floats of this depth over one pixel's footprint, and a half float's step.
             const double degrees = degreesBetween(result.normal[i], expected[i]);
             ASSERT_LT(degrees, 0.12) << "texel " << i;
-            const Vec3 ray = frame.ray(static_cast<double>(i % scene.width) + 0.5,
-                                       static_cast<double>(i / scene.width) + 0.5);
+            const Vec3 ray =
+                frame.ray(static_cast<double>(i % scene.width) + 0.5, static_cast<double>(i / scene.width) + 0.5);
             const double facing = double{result.normal[i][0]} * ray[0] + double{result.normal[i][1]} * ray[1] -
                                   double{result.normal[i][2]};
             ASSERT_LE(facing, 1e-3) << "texel " << i << " faces away";
@@ -41,8 +41,12 @@ void expectNormalsMatch(const RigScene& scene) {
     }
 }
 
-TEST(Normals, MatchTheReferenceOnAFilteredCloud) { expectNormalsMatch(cloud(400, 0.12F)); }
-TEST(Normals, MatchTheReferenceOnIsolatedPixels) { expectNormalsMatch(withoutFilter(cloud(3000, 0.01F))); }
+TEST(Normals, MatchTheReferenceOnAFilteredCloud) {
+    expectNormalsMatch(cloud(400, 0.12F));
+}
+TEST(Normals, MatchTheReferenceOnIsolatedPixels) {
+    expectNormalsMatch(withoutFilter(cloud(3000, 0.01F)));
+}
 
 TEST(Normals, OfASphereAreWithinADegreeAndAHalfAwayFromItsOutline) {
     RigScene scene = withoutFilter(emptyScene());
@@ -57,8 +61,8 @@ TEST(Normals, OfASphereAreWithinADegreeAndAHalfAwayFromItsOutline) {
         if (result.surface[i] > 1e29F) {
             continue;
         }
-        const Vec3 ray = frame.ray(static_cast<double>(i % scene.width) + 0.5,
-                                   static_cast<double>(i / scene.width) + 0.5);
+        const Vec3 ray =
+            frame.ray(static_cast<double>(i % scene.width) + 0.5, static_cast<double>(i / scene.width) + 0.5);
         Vec3 truth{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
             truth[axis] = (ray[axis] * double{result.surface[i]} - frame.eyes[0][axis]) / frame.splat_radius;

@@ -42,7 +42,9 @@ Result<FrameArena> FrameArena::create(const Device& device, std::size_t constant
     return arena;
 }
 
-FrameArena::FrameArena(FrameArena&& other) noexcept { *this = std::move(other); }
+FrameArena::FrameArena(FrameArena&& other) noexcept {
+    *this = std::move(other);
+}
 
 FrameArena& FrameArena::operator=(FrameArena&& other) noexcept {
     if (this != &other) {
@@ -54,7 +56,9 @@ FrameArena& FrameArena::operator=(FrameArena&& other) noexcept {
     return *this;
 }
 
-FrameArena::~FrameArena() { reset(); }
+FrameArena::~FrameArena() {
+    reset();
+}
 
 void FrameArena::reset() {
     if (device_ != nullptr) {

@@ -20,10 +20,18 @@ struct Binding {
     VkImageView view = VK_NULL_HANDLE;
     VkBuffer buffer = VK_NULL_HANDLE;
 };
-[[nodiscard]] inline Binding sampled(VkImageView view) { return {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, view, {}}; }
-[[nodiscard]] inline Binding storage(VkImageView view) { return {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, view, {}}; }
-[[nodiscard]] inline Binding uniform(VkBuffer buffer) { return {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, {}, buffer}; }
-[[nodiscard]] inline Binding readBuffer(VkBuffer buffer) { return {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {}, buffer}; }
+[[nodiscard]] inline Binding sampled(VkImageView view) {
+    return {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, view, {}};
+}
+[[nodiscard]] inline Binding storage(VkImageView view) {
+    return {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, view, {}};
+}
+[[nodiscard]] inline Binding uniform(VkBuffer buffer) {
+    return {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, {}, buffer};
+}
+[[nodiscard]] inline Binding readBuffer(VkBuffer buffer) {
+    return {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, {}, buffer};
+}
 
 /// Reset and refilled each time its image set is recorded, which is after that set's previous frame has finished.
 class FrameArena {

@@ -33,9 +33,8 @@ void openImages(const PassContext& context) {
         barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
         barrier.dstStageMask =
             drawn ? VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-        barrier.dstAccessMask =
-            drawn ? VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT
-                  : VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+        barrier.dstAccessMask = drawn ? VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT
+                                      : VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
         barriers.push_back(barrier);
     }
     // nothing_to_write is bound in every frame, so that the frames' last dispatches are ordered among themselves.

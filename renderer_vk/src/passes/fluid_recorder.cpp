@@ -91,9 +91,9 @@ Result<Image> makeEnvironment(const Device& device, const SluiceEnvironment& env
     for (std::size_t index = 0; index < pixels; ++index) {
         std::copy_n(environment.pixels + index * 3, 3, texels.data() + index * 4);
     }
-    auto image = Image::create(device, {VK_FORMAT_R32G32B32A32_SFLOAT, environment.width, environment.height,
-                                        VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, false,
-                                        "environment"});
+    auto image =
+        Image::create(device, {VK_FORMAT_R32G32B32A32_SFLOAT, environment.width, environment.height,
+                               VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, false, "environment"});
     if (!image) {
         return image;
     }
@@ -123,15 +123,14 @@ Result<FluidRecorder> FluidRecorder::create(const Device& device) {
         }
         state->arenas.push_back(std::move(arena).value());
     }
-    for (const Status& status : {take(makePlaceholder(device), state->images.nothing_to_read),
-                                 take(makePlaceholder(device), state->images.nothing_to_write),
-                                 take(SplatDepthPass::create(device), state->splat_depth),
-                                 take(FilterPass::create(device), state->filter),
-                                 take(NormalsPass::create(device), state->normals),
-                                 take(SplatThicknessPass::create(device), state->splat_thickness),
-                                 take(BlurThicknessPass::create(device), state->blur_thickness),
-                                 take(EchoPass::create(device), state->echo),
-                                 take(ClearPass::create(device), state->clear)}) {
+    for (const Status& status :
+         {take(makePlaceholder(device), state->images.nothing_to_read),
+          take(makePlaceholder(device), state->images.nothing_to_write),
+          take(SplatDepthPass::create(device), state->splat_depth), take(FilterPass::create(device), state->filter),
+          take(NormalsPass::create(device), state->normals),
+          take(SplatThicknessPass::create(device), state->splat_thickness),
+          take(BlurThicknessPass::create(device), state->blur_thickness), take(EchoPass::create(device), state->echo),
+          take(ClearPass::create(device), state->clear)}) {
         if (!status) {
             return status.error();
         }

@@ -24,18 +24,18 @@ class FluidRecorder {
     FluidRecorder& operator=(const FluidRecorder&) = delete;
     ~FluidRecorder();
 
-    /// Allocates images and builds pipelines that the plan needs and the recorder lacks, and frees images that it no longer
-    /// needs; waits for the device only if it has to free something. On failure the recorder keeps what it had.
+    /// Allocates images and builds pipelines that the plan needs and the recorder lacks, and frees images that it no
+    /// longer needs; waits for the device only if it has to free something. On failure the recorder keeps what it had.
     Status prepare(const Plan& plan);
     /// Uploads an environment map; null removes it. Waits for the device.
     Status setEnvironment(const SluiceEnvironment* environment);
-    /// Records every pass of `plan`, which was the argument of the last successful prepare. The caller guarantees that the
-    /// last recording for frame.image_set has finished on the device. Shared images are visible to fragment and compute
-    /// shaders in GENERAL and are left so; their last writes are by compute.
+    /// Records every pass of `plan`, which was the argument of the last successful prepare. The caller guarantees that
+    /// the last recording for frame.image_set has finished on the device. Shared images are visible to fragment and
+    /// compute shaders in GENERAL and are left so; their last writes are by compute.
     void record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan, const FrameTargets& targets,
                 const ParticleBuffers& particles, PassTimer& timer);
-    /// One of the renderer's own images, in GENERAL once recorded work has finished, for tests and captures; null if the
-    /// plan has none. Valid until the next prepare.
+    /// One of the renderer's own images, in GENERAL once recorded work has finished, for tests and captures; null if
+    /// the plan has none. Valid until the next prepare.
     [[nodiscard]] const Image* image(PlanImage id) const;
 
   private:

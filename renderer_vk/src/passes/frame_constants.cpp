@@ -7,7 +7,9 @@
 namespace sluice::vk {
 namespace {
 
-Vec4 withLast(const float (&rgb)[3], float last = 0.0F) { return {rgb[0], rgb[1], rgb[2], last}; }
+Vec4 withLast(const float (&rgb)[3], float last = 0.0F) {
+    return {rgb[0], rgb[1], rgb[2], last};
+}
 
 /// World direction to unit eye direction.
 Vec4 eyeDirection(const float (&view)[16], const float (&direction)[3]) {
@@ -56,8 +58,8 @@ FrameConstants makeFrameConstants(const SluiceFrame& frame, const Plan& plan, co
     block.filter = {fluid.filter_range * radius, fluid.filter_clamp * radius, fluid.filter_sigma * radius,
                     static_cast<float>(fluid.filter_max_pixels)};
     // A particle of a lattice of spacing 2r stands for 8 r^3 of fluid; its chords integrate to 4/3 pi R^3.
-    const double chord_weight = 8.0 * std::pow(double{radius}, 3) /
-                                (4.0 / 3.0 * std::numbers::pi * std::pow(double{splat_radius}, 3));
+    const double chord_weight =
+        8.0 * std::pow(double{radius}, 3) / (4.0 / 3.0 * std::numbers::pi * std::pow(double{splat_radius}, 3));
     block.thickness = {std::round(1.0F / fluid.thickness_scale), fluid.thickness_blur * radius,
                        static_cast<float>(chord_weight), 0.0F};
     block.modes = {static_cast<std::uint32_t>(targets.host_depth_encoding), particles.count, 0, 0};

@@ -16,17 +16,17 @@ using Vec4 = std::array<float, 4>;
 /// Lengths are metres unless a name says pixels; colours are linear.
 struct FrameConstants {
     std::array<float, 16> view;  ///< world to eye, column-major
-    Vec4 projection;             ///< x and y scale, x and y offset: ndc = scale * slope - offset, slope = eye.xy / depth
-    Vec4 depth;                  ///< ndc z = a + b / depth: a, b; near plane, far plane
-    Vec4 size;                   ///< width, height, 1 / width, 1 / height in pixels
-    Vec4 focal;                  ///< pixels per unit slope in x and y; splat radius, particle radius
-    Vec4 absorption;             ///< per metre; w = index of refraction
-    Vec4 scatter;                ///< w = specular power
-    Vec4 zenith, horizon, ground;///< of the procedural sky
-    Vec4 to_sun;                 ///< unit, eye space
+    Vec4 projection;  ///< x and y scale, x and y offset: ndc = scale * slope - offset, slope = eye.xy / depth
+    Vec4 depth;       ///< ndc z = a + b / depth: a, b; near plane, far plane
+    Vec4 size;        ///< width, height, 1 / width, 1 / height in pixels
+    Vec4 focal;       ///< pixels per unit slope in x and y; splat radius, particle radius
+    Vec4 absorption;  ///< per metre; w = index of refraction
+    Vec4 scatter;     ///< w = specular power
+    Vec4 zenith, horizon, ground;  ///< of the procedural sky
+    Vec4 to_sun;                   ///< unit, eye space
     Vec4 sun_radiance;
-    Vec4 filter;                 ///< delta, mu, sigma; w = cap in pixels
-    Vec4 thickness;              ///< pixels per thickness texel; sigma of the blur; chord weight; particle count
+    Vec4 filter;     ///< delta, mu, sigma; w = cap in pixels
+    Vec4 thickness;  ///< pixels per thickness texel; sigma of the blur; chord weight; particle count
     std::array<std::uint32_t, 4> modes;  ///< SluiceDepthEncoding of HOST_DEPTH
 };
 static_assert(sizeof(FrameConstants) == 64 + 14 * 16, "std140 has no padding here");

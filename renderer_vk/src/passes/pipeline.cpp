@@ -76,7 +76,9 @@ Status createLayouts(const Device& device, Pipeline& pipeline, std::span<const V
 
 }  // namespace
 
-Pipeline::Pipeline(Pipeline&& other) noexcept { *this = std::move(other); }
+Pipeline::Pipeline(Pipeline&& other) noexcept {
+    *this = std::move(other);
+}
 
 Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
     if (this != &other) {
@@ -89,7 +91,9 @@ Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
     return *this;
 }
 
-Pipeline::~Pipeline() { reset(); }
+Pipeline::~Pipeline() {
+    reset();
+}
 
 void Pipeline::reset() {
     if (device == nullptr) {
@@ -107,8 +111,8 @@ void Pipeline::reset() {
 Result<Pipeline> createCompute(const Device& device, const ComputeDesc& desc) {
     Pipeline pipeline;
     pipeline.device = &device;
-    if (Status status = createLayouts(device, pipeline, desc.bindings, desc.push_bytes, VK_SHADER_STAGE_COMPUTE_BIT,
-                                      desc.name);
+    if (Status status =
+            createLayouts(device, pipeline, desc.bindings, desc.push_bytes, VK_SHADER_STAGE_COMPUTE_BIT, desc.name);
         !status) {
         return status.error();
     }
@@ -156,15 +160,19 @@ Result<Pipeline> createSplat(const Device& device, const SplatDesc& desc) {
         stages[index].pName = "main";
         stages[index].pSpecializationInfo = &specialisation.info;
     }
-    const auto input = vkStruct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
-    auto assembly = vkStruct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    const auto input =
+        vkStruct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+    auto assembly =
+        vkStruct<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
     assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
     auto viewport = vkStruct<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
     viewport.viewportCount = 1;
     viewport.scissorCount = 1;
-    auto raster = vkStruct<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+    auto raster =
+        vkStruct<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
     raster.lineWidth = 1.0F;
-    auto samples = vkStruct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    auto samples =
+        vkStruct<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
     samples.rasterizationSamples = VK_SAMPLE_COUNT_1_BIT;
     VkPipelineColorBlendAttachmentState attachment{};
     attachment.blendEnable = VK_TRUE;
@@ -172,7 +180,8 @@ Result<Pipeline> createSplat(const Device& device, const SplatDesc& desc) {
     attachment.srcAlphaBlendFactor = attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     attachment.colorBlendOp = attachment.alphaBlendOp = desc.blend;
     attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
-    auto blend = vkStruct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+    auto blend =
+        vkStruct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
     blend.attachmentCount = 1;
     blend.pAttachments = &attachment;
     const std::array<VkDynamicState, 2> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};

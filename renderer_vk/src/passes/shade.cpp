@@ -11,7 +11,9 @@ namespace {
 
 constexpr std::uint32_t kTile = 16;
 
-bool wanted(const Plan& plan, SluiceImageRole role) { return (plan.outputs & SLUICE_ROLE_BIT(role)) != 0; }
+bool wanted(const Plan& plan, SluiceImageRole role) {
+    return (plan.outputs & SLUICE_ROLE_BIT(role)) != 0;
+}
 
 }  // namespace
 
@@ -33,8 +35,17 @@ Status ShadePass::prepare(const Device& device, const Plan& plan) {
     }
     constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kSampled, kSampled, kSampled, kSampled, kSampled,
-                                  kSampled, kStorage, kStorage, kStorage, kStorage};
+    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                  kSampled,
+                                  kSampled,
+                                  kSampled,
+                                  kSampled,
+                                  kSampled,
+                                  kSampled,
+                                  kStorage,
+                                  kStorage,
+                                  kStorage,
+                                  kStorage};
     auto pipeline = createCompute(device, {"shade", shade_comp, bindings, 0, key});
     if (!pipeline) {
         return pipeline.error();
@@ -74,10 +85,10 @@ void ShadePass::record(const PassContext& context) const {
     const std::uint64_t bytes_per_pixel = 4U + 4U + (images[PlanImage::Normal] ? 8U : 0U) +
                                           (context.plan.refraction ? 4U : 0U) + 8U + 4U + (write_normal ? 8U : 0U) +
                                           (write_thickness ? 4U : 0U);
-    context.timer.begin(context.commands,
-                        {"shade", context.pixels(),
-                         context.pixels() * bytes_per_pixel + std::uint64_t{thickness.width()} * thickness.height() * 4,
-                         false, 1});
+    context.timer.begin(
+        context.commands,
+        {"shade", context.pixels(),
+         context.pixels() * bytes_per_pixel + std::uint64_t{thickness.width()} * thickness.height() * 4, false, 1});
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, found->second, bindings);
     dispatchOver(context, context.plan.width, context.plan.height, kTile, kTile);
     context.timer.end(context.commands);

@@ -34,7 +34,6 @@ bool large(const PassContext& context, float texels_per_pixel) {
 struct Target {
     PlanImage id;
     float clear;
-    float scale;  ///< pixels per texel
 };
 
 void draw(const PassContext& context, const Target& target, const Pipeline& pipeline, std::uint32_t vertices,
@@ -54,13 +53,8 @@ void draw(const PassContext& context, const Target& target, const Pipeline& pipe
     rendering.pColorAttachments = &attachment;
     device.fn.vkCmdBeginRendering(context.commands, &rendering);
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline, bindings);
-    // The picture's exact size in texels, which an odd size leaves between two integers.
-    const VkViewport viewport{0.0F,
-                              0.0F,
-                              static_cast<float>(context.plan.width) / target.scale,
-                              static_cast<float>(context.plan.height) / target.scale,
-                              0.0F,
-                              1.0F};
+    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(image.width()), static_cast<float>(image.height()),
+                              0.0F, 1.0F};
     device.fn.vkCmdSetViewport(context.commands, 0, 1, &viewport);
     device.fn.vkCmdSetScissor(context.commands, 0, 1, &rendering.renderArea);
     device.fn.vkCmdDraw(context.commands, context.particles.count * vertices, 1, 0, 0);
@@ -102,7 +96,7 @@ void SplatDepthPass::record(const PassContext& context) const {
     const std::uint64_t count = context.particles.count;
     context.timer.begin(context.commands, {"splat_depth", count, count * 12 + context.pixels() * 4, true, 1});
     const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position)};
-    draw(context, {PlanImage::DepthA, 1e30F, 1.0F}, use_large ? large : small, use_large ? 6 : 3, bindings);
+    draw(context, {PlanImage::DepthA, 1e30F}, use_large ? large : small, use_large ? 6 : 3, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::DepthA);
 }
@@ -124,13 +118,13 @@ void SplatThicknessPass::record(const PassContext& context) const {
     const bool use_large = sluice::vk::large(context, 1.0F / scale);
     const Image& image = context.images[PlanImage::Thickness];
     const std::uint64_t count = context.particles.count;
-    context.timer.begin(context.commands,
-                        {"splat_thickness", count,
-                         count * 12 + context.pixels() * 4 + std::uint64_t{image.width()} * image.height() * 4, true,
-                         1});
+    context.timer.begin(
+        context.commands,
+        {"splat_thickness", count,
+         count * 12 + context.pixels() * 4 + std::uint64_t{image.width()} * image.height() * 4, true, 1});
     const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position),
                               sampled(context.targets.host_depth.view)};
-    draw(context, {PlanImage::Thickness, 0.0F, scale}, use_large ? large : small, use_large ? 6 : 3, bindings);
+    draw(context, {PlanImage::Thickness, 0.0F}, use_large ? large : small, use_large ? 6 : 3, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::Thickness);
 }

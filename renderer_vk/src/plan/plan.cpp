@@ -93,9 +93,9 @@ Wants wantsOf(const SluiceSceneNeeds& needs) {
     const auto asked = [&](SluiceImageRole role) { return (needs.outputs & SLUICE_ROLE_BIT(role)) != 0; };
     Wants wants{};
     wants.normals = shaded || fluid.view == SLUICE_VIEW_NORMAL || asked(SLUICE_IMAGE_FLUID_NORMAL);
-    wants.thickness = fluid.view == SLUICE_VIEW_THICKNESS || asked(SLUICE_IMAGE_FLUID_THICKNESS) ||
-                      (shaded && (anyPositive(fluid.absorption) || anyPositive(fluid.scatter_colour) ||
-                                  fluid.refraction != 0));
+    wants.thickness =
+        fluid.view == SLUICE_VIEW_THICKNESS || asked(SLUICE_IMAGE_FLUID_THICKNESS) ||
+        (shaded && (anyPositive(fluid.absorption) || anyPositive(fluid.scatter_colour) || fluid.refraction != 0));
     wants.filter = fluid.filter == SLUICE_FILTER_NARROW_RANGE && fluid.filter_iterations > 0 &&
                    fluid.filter_sigma > 0.0F && fluid.filter_max_pixels > 0 &&
                    (wants.normals || fluid.view == SLUICE_VIEW_DEPTH);
@@ -150,8 +150,8 @@ class Builder {
             return single(PassId::Echo, {PlanImage::HostColour, PlanImage::HostDepth}, "the echo view is asked for",
                           "the echo view shows no fluid");
         }
-        plan_.outputs = needs_.outputs & (SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) |
-                                          SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS));
+        plan_.outputs = needs_.outputs &
+                        (SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS));
         if (needs_.particle_count == 0) {
             return single(PassId::Clear, {}, "there are no particles", "there are no particles");
         }
@@ -259,10 +259,11 @@ class Builder {
         plan_.reflection = plan_.view == SLUICE_VIEW_FLUID && needs_.fluid.reflection != 0;
         std::string reason = "a debug view of one buffer";
         if (plan_.view == SLUICE_VIEW_FLUID) {
-            reason = fmt::format("{}, reflection {}", plan_.refraction ? "refraction of the host's colour" : "no refraction",
-                                 !plan_.reflection       ? "off"
-                                 : plan_.environment_map ? "of the environment map"
-                                                         : "of the procedural sky");
+            reason =
+                fmt::format("{}, reflection {}", plan_.refraction ? "refraction of the host's colour" : "no refraction",
+                            !plan_.reflection       ? "off"
+                            : plan_.environment_map ? "of the environment map"
+                                                    : "of the procedural sky");
         }
         keep(PassId::Shade, std::move(reads), outputs(), 1, std::move(reason));
     }

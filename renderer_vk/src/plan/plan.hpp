@@ -26,13 +26,14 @@ enum class PassId : std::uint8_t {
     Count
 };
 
-/// Every image that a pass may read or write. Those from HostColour on are shared or uploaded, not allocated by the plan.
+/// Every image that a pass may read or write. Those from HostColour on are shared or uploaded, not allocated by the
+/// plan.
 enum class PlanImage : std::uint8_t {
-    DepthA,       ///< R32F metres along -z; 1e30 = empty
-    DepthB,       ///< the other half of the filter's ping-pong
-    Normal,       ///< RGBA16F eye-space unit normal, w = 1 on fluid
-    Thickness,    ///< R32F metres along the view ray, reduced resolution
-    ThicknessSums,///< RG32F weighted sum and weight between the two directions of the blur
+    DepthA,         ///< R32F metres along -z; 1e30 = empty
+    DepthB,         ///< the other half of the filter's ping-pong
+    Normal,         ///< RGBA16F eye-space unit normal, w = 1 on fluid
+    Thickness,      ///< R32F metres along the view ray, reduced resolution
+    ThicknessSums,  ///< RG32F weighted sum and weight between the two directions of the blur
     HostColour,
     HostDepth,
     Environment,
@@ -70,7 +71,8 @@ struct OmittedPass {
     bool operator==(const OmittedPass&) const = default;
 };
 
-/// The answer. Equal plans need no new resources and no new pipelines; numbers that only change pixels are in SluiceFrame.
+/// The answer. Equal plans need no new resources and no new pipelines; numbers that only change pixels are in
+/// SluiceFrame.
 struct Plan {
     std::uint32_t width = 0, height = 0;
     SluiceView view = SLUICE_VIEW_FLUID;
@@ -78,8 +80,8 @@ struct Plan {
     bool refraction = false;
     bool reflection = false;
     bool environment_map = false;
-    std::uint32_t outputs = 0;                ///< roles that shade writes besides colour and depth
-    PlanImage surface = PlanImage::DepthA;    ///< where the final depth is
+    std::uint32_t outputs = 0;              ///< roles that shade writes besides colour and depth
+    PlanImage surface = PlanImage::DepthA;  ///< where the final depth is
     std::vector<PlannedPass> passes;
     std::vector<PlannedImage> images;
     std::vector<OmittedPass> omitted;
@@ -92,12 +94,12 @@ inline constexpr std::uint32_t kMaxFilterPixels = 128;
 /// Most filter iterations.
 inline constexpr std::uint32_t kMaxFilterIterations = 16;
 
-/// Fails if a number of `needs` is out of range (size 1..16384, radii and indices finite and positive, kinds known); the
-/// error names the field, its value and the range.
+/// Fails if a number of `needs` is out of range (size 1..16384, radii and indices finite and positive, kinds known);
+/// the error names the field, its value and the range.
 [[nodiscard]] Result<Plan> makePlan(const SluiceSceneNeeds& needs);
 
-/// One line per pass in order, kept or left out, with the reason, what it reads and writes; then one line per image with
-/// format, size and bytes.
+/// One line per pass in order, kept or left out, with the reason, what it reads and writes; then one line per image
+/// with format, size and bytes.
 [[nodiscard]] std::vector<std::string> explain(const Plan& plan);
 
 [[nodiscard]] std::string_view toString(PassId pass);

@@ -8,13 +8,21 @@
 namespace sluice::vk::test {
 namespace {
 
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 Vec3 cross(const Vec3& a, const Vec3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Vec3 scaled(const Vec3& a, double s) { return {a[0] * s, a[1] * s, a[2] * s}; }
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-Vec3 unit(const Vec3& a) { return scaled(a, 1.0 / std::sqrt(dot(a, a))); }
+Vec3 scaled(const Vec3& a, double s) {
+    return {a[0] * s, a[1] * s, a[2] * s};
+}
+Vec3 minus(const Vec3& a, const Vec3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Vec3 unit(const Vec3& a) {
+    return scaled(a, 1.0 / std::sqrt(dot(a, a)));
+}
 double smoothstep(double low, double high, double x) {
     const double t = std::clamp((x - low) / (high - low), 0.0, 1.0);
     return t * t * (3 - 2 * t);
@@ -39,8 +47,7 @@ struct Kernel {
 Kernel kernelOf(const ReferenceFrame& frame, double depth, double focal) {
     const SluiceFluid& fluid = frame.scene.fluid;
     const double cap = fluid.filter_max_pixels;
-    const double sigma =
-        std::min(double{fluid.filter_sigma} * double{frame.scene.radius} * focal / depth, cap / 3.0);
+    const double sigma = std::min(double{fluid.filter_sigma} * double{frame.scene.radius} * focal / depth, cap / 3.0);
     return {sigma, static_cast<int>(std::min(std::ceil(3 * sigma), cap))};
 }
 
@@ -57,8 +64,7 @@ double narrowRange(const ReferenceFrame& frame, const std::vector<double>& depth
     const double delta = double{frame.scene.fluid.filter_range} * radius;
     const double mu = double{frame.scene.fluid.filter_clamp} * radius;
     const auto at = [&](int u, int v) {
-        return u < 0 || v < 0 || u >= width || v >= height ? kEmpty
-                                                           : depth[static_cast<std::size_t>(v * width + u)];
+        return u < 0 || v < 0 || u >= width || v >= height ? kEmpty : depth[static_cast<std::size_t>(v * width + u)];
     };
     const double centre = at(x, y);
     double sum = 1 / centre;
@@ -125,8 +131,8 @@ std::vector<double> referenceSplat(const ReferenceFrame& frame, std::vector<doub
         slack->assign(depth.size(), 1e9);
     }
     for (std::size_t texel = 0; texel < depth.size(); ++texel) {
-        const Vec3 ray = frame.ray(static_cast<double>(texel % scene.width) + 0.5,
-                                   static_cast<double>(texel / scene.width) + 0.5);
+        const Vec3 ray =
+            frame.ray(static_cast<double>(texel % scene.width) + 0.5, static_cast<double>(texel / scene.width) + 0.5);
         for (const Vec3& eye : frame.eyes) {
             const Hit h = hit(ray, eye, frame.splat_radius);
             const double distance = std::sqrt(h.distance_squared);
@@ -161,8 +167,7 @@ std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_
             }
             for (const Vec3& eye : frame.eyes) {
                 const Hit h = hit(ray, eye, frame.splat_radius);
-                const double chord =
-                    std::min(h.leave, behind) - std::max(h.enter, double{scene.camera.near_plane});
+                const double chord = std::min(h.leave, behind) - std::max(h.enter, double{scene.camera.near_plane});
                 result[std::size_t{y} * width + x] += weight * std::max(chord, 0.0) * std::sqrt(dot(ray, ray));
             }
         }
@@ -190,7 +195,8 @@ std::vector<double> referenceFilter(const ReferenceFrame& frame, std::vector<dou
             const Kernel kernel = kernelOf(frame, d, along_x ? frame.focal_x : frame.focal_y);
             std::vector<Offset> half;
             for (int k = 1; k <= kernel.reach; ++k) {
-                half.push_back({along_x ? k : 0, along_x ? 0 : k, std::exp(-0.5 * k * k / (kernel.sigma * kernel.sigma))});
+                half.push_back(
+                    {along_x ? k : 0, along_x ? 0 : k, std::exp(-0.5 * k * k / (kernel.sigma * kernel.sigma))});
             }
             return half;
         });
@@ -200,8 +206,7 @@ std::vector<double> referenceFilter(const ReferenceFrame& frame, std::vector<dou
         line(false);
     }
     pass([&](double d) {
-        const double sigma =
-            std::min(4.0 / 3.0, kernelOf(frame, d, std::min(frame.focal_x, frame.focal_y)).sigma);
+        const double sigma = std::min(4.0 / 3.0, kernelOf(frame, d, std::min(frame.focal_x, frame.focal_y)).sigma);
         const int reach = std::min(4, static_cast<int>(std::ceil(3 * sigma)));
         std::vector<Offset> half;
         for (int y = 0; y <= reach; ++y) {
@@ -232,8 +237,7 @@ std::vector<Vec3> referenceNormals(const ReferenceFrame& frame, const std::vecto
                 continue;
             }
             const Vec3 p = point(x, y);
-            const double bend =
-                0.5 * std::max(double{frame.scene.radius}, d / std::min(frame.focal_x, frame.focal_y));
+            const double bend = 0.5 * std::max(double{frame.scene.radius}, d / std::min(frame.focal_x, frame.focal_y));
             const auto tangent = [&](int sx, int sy) -> Vec3 {
                 const double ahead = at(x + sx, y + sy);
                 const double behind = at(x - sx, y - sy);
@@ -278,10 +282,12 @@ std::vector<double> referenceBlur(const ReferenceFrame& frame, const std::vector
         double nearest = kEmpty;
         for (int v = -1; v <= 1; ++v) {
             for (int u = -1; u <= 1; ++u) {
-                const int cx = std::clamp(static_cast<int>((x + u + 0.5) * scale), 0, static_cast<int>(scene.width) - 1);
-                const int cy = std::clamp(static_cast<int>((y + v + 0.5) * scale), 0, static_cast<int>(scene.height) - 1);
-                nearest = std::min(nearest, double{depth[static_cast<std::size_t>(cy) * scene.width +
-                                                         static_cast<std::size_t>(cx)]});
+                const int cx =
+                    std::clamp(static_cast<int>((x + u + 0.5) * scale), 0, static_cast<int>(scene.width) - 1);
+                const int cy =
+                    std::clamp(static_cast<int>((y + v + 0.5) * scale), 0, static_cast<int>(scene.height) - 1);
+                nearest = std::min(
+                    nearest, double{depth[static_cast<std::size_t>(cy) * scene.width + static_cast<std::size_t>(cx)]});
             }
         }
         const double world = double{scene.fluid.thickness_blur} * double{scene.radius};

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Every pass in double precision, written from the definitions in shaders/ and not from their code paths: all spheres are
-// tried at all pixels, kernels are 2-D loops without tiles, and nothing is clipped early.
+// Every pass in double precision, written from the definitions in shaders/ and not from their code paths: all spheres
+// are tried at all pixels, kernels are 2-D loops without tiles, and nothing is clipped early.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ struct ReferenceFrame {
 
 inline constexpr double kEmpty = 1e30;
 
-/// Nearest depth per pixel. `slack`, if given, receives for each pixel the smallest distance in pixels between its centre
-/// and a sphere's outline as far as that outline could decide anything: coverage within it is not comparable.
+/// Nearest depth per pixel. `slack`, if given, receives for each pixel the smallest distance in pixels between its
+/// centre and a sphere's outline as far as that outline could decide anything: coverage within it is not comparable.
 [[nodiscard]] std::vector<double> referenceSplat(const ReferenceFrame& frame, std::vector<double>* slack = nullptr);
 [[nodiscard]] std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_t width,
                                                      std::uint32_t height);
