@@ -8,8 +8,8 @@
 
 namespace sluice::host::test {
 
-/// Sets as much unusual state as one context can hold, and frees it at the end. With `screen` bound as both framebuffers
-/// and its buffers deselected.
+/// Sets as much unusual state as one context can hold, and frees it at the end. With `screen` bound as both
+/// framebuffers and its buffers deselected.
 class HostileState {
   public:
     explicit HostileState(std::uint32_t screen);

@@ -20,7 +20,9 @@ void drawQuad(float left, float right, const Stamp& stamp) {
 }
 
 /// The column from which the right half begins: pixel centres right of clip x = 0.
-std::uint32_t middle(std::uint32_t width) { return width / 2; }
+std::uint32_t middle(std::uint32_t width) {
+    return width / 2;
+}
 
 }  // namespace
 
@@ -55,12 +57,12 @@ void drawStamp(const Screen& screen, std::uint64_t frame, int layers) {
 
 Verdict inspect(const FluidHost& host, std::uint64_t frame) {
     const SluiceRendererInfo& info = host.info();
-    const Pixels colour =
-        readTexture(host.texture(SLUICE_IMAGE_FLUID_COLOUR),
-                    static_cast<SluiceFormat>(info.formats[SLUICE_IMAGE_FLUID_COLOUR]), info.width, info.height, nullptr);
-    const Pixels depth =
-        readTexture(host.texture(SLUICE_IMAGE_FLUID_DEPTH),
-                    static_cast<SluiceFormat>(info.formats[SLUICE_IMAGE_FLUID_DEPTH]), info.width, info.height, nullptr);
+    const Pixels colour = readTexture(host.texture(SLUICE_IMAGE_FLUID_COLOUR),
+                                      static_cast<SluiceFormat>(info.formats[SLUICE_IMAGE_FLUID_COLOUR]), info.width,
+                                      info.height, nullptr);
+    const Pixels depth = readTexture(host.texture(SLUICE_IMAGE_FLUID_DEPTH),
+                                     static_cast<SluiceFormat>(info.formats[SLUICE_IMAGE_FLUID_DEPTH]), info.width,
+                                     info.height, nullptr);
     const std::array<Stamp, 2> stamps{stampOf(frame, 0), stampOf(frame, 1)};
     Verdict verdict;
     verdict.texels = depth.values.size();

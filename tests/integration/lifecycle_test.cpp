@@ -176,12 +176,11 @@ TEST_F(LifecycleTest, LinearFallbackCarriesMetres) {
     const FrameInput input = echoInput();
     ASSERT_TRUE(host_->submit(*screen_, input));
     ASSERT_TRUE(host_->composite(*screen_));
-    const Pixels metres = readTexture(host_->texture(SLUICE_IMAGE_HOST_DEPTH), SLUICE_FORMAT_R32F, kEchoWidth,
-                                      kEchoHeight, nullptr);
+    const Pixels metres =
+        readTexture(host_->texture(SLUICE_IMAGE_HOST_DEPTH), SLUICE_FORMAT_R32F, kEchoWidth, kEchoHeight, nullptr);
     for (std::size_t i = 0; i < metres.values.size(); ++i) {
         const double ndc = 2.0 * double{stampOf(1, i % kEchoWidth < kEchoWidth / 2 ? 0 : 1).depth} - 1.0;
-        const double expected =
-            -double{input.camera.projection[14]} / (-ndc - double{input.camera.projection[10]});
+        const double expected = -double{input.camera.projection[14]} / (-ndc - double{input.camera.projection[10]});
         // 24-bit depth itself is good to 6e-8 / (n/z)-ish; at these depths (z < 2 m) that is below 1e-5 of z.
         ASSERT_NEAR(double{metres.values[i]} / expected, 1.0, 1e-5) << "texel " << i;
     }

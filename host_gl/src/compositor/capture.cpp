@@ -19,7 +19,8 @@ void captureScreen(std::uint32_t framebuffer, std::uint32_t width, std::uint32_t
             // Colour or depth is read according to the texture's own base format. Not glBlitFramebuffer: that cannot
             // convert 24-bit depth to 32-bit float.
             glBindTexture(GL_TEXTURE_2D, texture);
-            glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, static_cast<GLsizei>(width), static_cast<GLsizei>(height));
+            glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, static_cast<GLsizei>(width),
+                                static_cast<GLsizei>(height));
         }
     }
 }

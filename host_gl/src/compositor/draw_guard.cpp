@@ -13,10 +13,10 @@ bool has(int version, const char* extension) {
 
 /// Toggles that could drop, move or change a fragment of the quad.
 std::vector<GLenum> togglesOfThisContext() {
-    std::vector<GLenum> names{GL_ALPHA_TEST,      GL_COLOR_LOGIC_OP,  GL_CULL_FACE,
-                              GL_DEPTH_TEST,      GL_DITHER,          GL_POLYGON_OFFSET_FILL,
-                              GL_POLYGON_SMOOTH,  GL_POLYGON_STIPPLE, GL_SAMPLE_ALPHA_TO_COVERAGE,
-                              GL_STENCIL_TEST,    GL_SAMPLE_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE};
+    std::vector<GLenum> names{GL_ALPHA_TEST,     GL_COLOR_LOGIC_OP,  GL_CULL_FACE,
+                              GL_DEPTH_TEST,     GL_DITHER,          GL_POLYGON_OFFSET_FILL,
+                              GL_POLYGON_SMOOTH, GL_POLYGON_STIPPLE, GL_SAMPLE_ALPHA_TO_COVERAGE,
+                              GL_STENCIL_TEST,   GL_SAMPLE_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE};
     if (epoxy_gl_version() >= 30) {
         names.push_back(GL_RASTERIZER_DISCARD);
     }
@@ -54,14 +54,16 @@ GLint integer(GLenum name) {
     return value;
 }
 
-GLenum enumeration(GLint value) { return static_cast<GLenum>(value); }
+GLenum enumeration(GLint value) {
+    return static_cast<GLenum>(value);
+}
 
 }  // namespace
 
 Status checkDrawable() {
     if (const GLint list = integer(GL_LIST_INDEX); list != 0) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "OpenGL state", fmt::format("display list {} is being compiled", list),
-                     "call glEndList before Sluice"};
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "OpenGL state",
+                     fmt::format("display list {} is being compiled", list), "call glEndList before Sluice"};
     }
     if (const GLint mode = integer(GL_RENDER_MODE); mode != GL_RENDER) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "OpenGL state",

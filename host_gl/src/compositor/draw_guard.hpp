@@ -12,18 +12,18 @@
 
 namespace sluice::host {
 
-/// An error if GL is in a state in which nothing can be drawn or queried without damage to the host: a display list being
-/// compiled, or selection or feedback mode. (glBegin/glEnd, conditional rendering and an active occlusion query cannot be
-/// told in OpenGL; calling there is a broken contract.)
+/// An error if GL is in a state in which nothing can be drawn or queried without damage to the host: a display list
+/// being compiled, or selection or feedback mode. (glBegin/glEnd, conditional rendering and an active occlusion query
+/// cannot be told in OpenGL; calling there is a broken contract.)
 [[nodiscard]] Status checkDrawable();
 
 /// Saves every state that decides how a triangle without vertex arrays is rasterised and written to draw buffer 0, and
 /// sets it so that each covered pixel of the framebuffer runs the fragment shader once: no culling, clipping, scissor,
 /// stencil, alpha or depth test, blending, masks or feedback. The destructor puts it back.
 ///
-/// State is read and written back one by one, not with glPushAttrib: the host's attribute stack may be full, and it covers
-/// neither indexed state (viewport arrays, per-buffer blending) nor anything later than OpenGL 2.1. Where OpenGL has
-/// indexed state only index 0 is touched.
+/// State is read and written back one by one, not with glPushAttrib: the host's attribute stack may be full, and it
+/// covers neither indexed state (viewport arrays, per-buffer blending) nor anything later than OpenGL 2.1. Where OpenGL
+/// has indexed state only index 0 is touched.
 class DrawGuard {
   public:
     DrawGuard(GLsizei width, GLsizei height);

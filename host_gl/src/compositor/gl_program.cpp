@@ -90,7 +90,9 @@ GlProgram::~GlProgram() {
     }
 }
 
-std::int32_t GlProgram::uniform(const char* name) const { return glGetUniformLocation(program_, name); }
+std::int32_t GlProgram::uniform(const char* name) const {
+    return glGetUniformLocation(program_, name);
+}
 
 void drawScreenTriangle() {
     glBegin(GL_TRIANGLES);

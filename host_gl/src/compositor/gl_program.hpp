@@ -14,8 +14,8 @@ namespace sluice::host {
 class GlProgram {
   public:
     GlProgram() = default;
-    /// `name` is what errors call it. The vertex shader is that of every full-screen pass: it passes gl_Vertex.xy through
-    /// as clip coordinates. Leaves the current program as found.
+    /// `name` is what errors call it. The vertex shader is that of every full-screen pass: it passes gl_Vertex.xy
+    /// through as clip coordinates. Leaves the current program as found.
     [[nodiscard]] static Result<GlProgram> create(std::string_view name, std::string_view fragment_source);
     GlProgram(GlProgram&& other) noexcept : program_(std::exchange(other.program_, 0)) {}
     GlProgram& operator=(GlProgram&& other) noexcept {

@@ -10,8 +10,8 @@
 namespace sluice::host {
 
 /// Places a pair of GL timestamps around a pass and, once both have arrived, records it as SLUICE_TRACE_PASS on
-/// SLUICE_TRACK_HOST_GL. Never waits for the GPU. Does nothing without a Trace or without GL_ARB_timer_query. Freed with
-/// the GL context current.
+/// SLUICE_TRACK_HOST_GL. Never waits for the GPU. Does nothing without a Trace or without GL_ARB_timer_query. Freed
+/// with the GL context current.
 class GpuTimer {
   public:
     explicit GpuTimer(Trace* trace);

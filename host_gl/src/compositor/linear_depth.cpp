@@ -56,8 +56,8 @@ Result<LinearDepthPass> LinearDepthPass::create(std::uint32_t width, std::uint32
     const TextureGuard texture;
     glGenTextures(1, &pass.depth_);
     glBindTexture(GL_TEXTURE_2D, pass.depth_);
-    glTexImage2D(GL_TEXTURE_2D, 0, has_float ? GL_DEPTH_COMPONENT32F : GL_DEPTH_COMPONENT24, static_cast<GLsizei>(width),
-                 static_cast<GLsizei>(height), 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, has_float ? GL_DEPTH_COMPONENT32F : GL_DEPTH_COMPONENT24,
+                 static_cast<GLsizei>(width), static_cast<GLsizei>(height), 0, GL_DEPTH_COMPONENT, GL_FLOAT, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
@@ -103,7 +103,9 @@ void LinearDepthPass::swap(LinearDepthPass& other) noexcept {
     std::swap(height_, other.height_);
 }
 
-LinearDepthPass::LinearDepthPass(LinearDepthPass&& other) noexcept { swap(other); }
+LinearDepthPass::LinearDepthPass(LinearDepthPass&& other) noexcept {
+    swap(other);
+}
 
 LinearDepthPass& LinearDepthPass::operator=(LinearDepthPass&& other) noexcept {
     swap(other);

@@ -5,7 +5,9 @@ namespace sluice::host {
 
 namespace {
 
-GLenum firstBuffer(GLuint framebuffer) { return framebuffer != 0 ? GL_COLOR_ATTACHMENT0 : GL_BACK; }
+GLenum firstBuffer(GLuint framebuffer) {
+    return framebuffer != 0 ? GL_COLOR_ATTACHMENT0 : GL_BACK;
+}
 
 }  // namespace
 
@@ -15,7 +17,9 @@ ReadBinding::ReadBinding(GLuint framebuffer) {
     glReadBuffer(firstBuffer(framebuffer));
 }
 
-ReadBinding::~ReadBinding() { glReadBuffer(static_cast<GLenum>(read_buffer_)); }
+ReadBinding::~ReadBinding() {
+    glReadBuffer(static_cast<GLenum>(read_buffer_));
+}
 
 DrawBinding::DrawBinding(GLuint framebuffer) {
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer);

@@ -300,7 +300,8 @@ Status FluidHostImpl::composite(const Screen& screen) {
     compositor_.draw(screen.framebuffer(), info_.width, info_.height, images.texture(SLUICE_IMAGE_FLUID_COLOUR, set),
                      images.texture(SLUICE_IMAGE_FLUID_DEPTH, set));
     timer_.end();
-    // The picture is drawn, and the next odd value implies this one, so a failure here is news but not a failed composite.
+    // The picture is drawn, and the next odd value implies this one, so a failure here is news but not a failed
+    // composite.
     if (const Status status = timeline_->signal(compositeRead(frame), textures); !status) {
         services_.log(SLUICE_LOG_WARNING, status.error().message());
     }

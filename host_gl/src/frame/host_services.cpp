@@ -41,7 +41,9 @@ SluiceImageExport readExport(const SluiceImageExport& given) {
     return image;
 }
 
-Error missingArgument() { return {SLUICE_ERROR_INVALID_ARGUMENT, kService, "the image is NULL", "the renderer is broken"}; }
+Error missingArgument() {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, kService, "the image is NULL", "the renderer is broken"};
+}
 
 }  // namespace
 
@@ -69,8 +71,8 @@ void HostServices::logService(void* user, std::int32_t level, const char* messag
         return;
     }
     static_cast<void>(guarded(nullptr, [&]() -> Status {
-        const auto known = static_cast<SluiceLogLevel>(
-            std::clamp<std::int32_t>(level, SLUICE_LOG_DEBUG, SLUICE_LOG_ERROR));
+        const auto known =
+            static_cast<SluiceLogLevel>(std::clamp<std::int32_t>(level, SLUICE_LOG_DEBUG, SLUICE_LOG_ERROR));
         static_cast<HostServices*>(user)->log(known, message);
         return {};
     }));

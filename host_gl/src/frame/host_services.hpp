@@ -12,8 +12,8 @@
 
 namespace sluice::host {
 
-/// The services of one renderer. Its address is given to the renderer, so it neither moves nor copies. `log` may be called
-/// on any thread and is called on one at a time.
+/// The services of one renderer. Its address is given to the renderer, so it neither moves nor copies. `log` may be
+/// called on any thread and is called on one at a time.
 class HostServices {
   public:
     HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace);

@@ -115,7 +115,9 @@ Status ImageSets::beginComposite(std::uint64_t frame) {
     return {};
 }
 
-Status ImageSets::endComposite(std::uint64_t frame) { return of(frame).hand_off.hostCompositeEnd(frame); }
+Status ImageSets::endComposite(std::uint64_t frame) {
+    return of(frame).hand_off.hostCompositeEnd(frame);
+}
 
 void ImageSets::reset() {
     const auto count = static_cast<std::uint32_t>(sets_.size());

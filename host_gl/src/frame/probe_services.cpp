@@ -15,6 +15,8 @@ ProbeServices::ProbeServices(std::function<void(SluiceLogLevel, std::string_view
 
 ProbeServices::~ProbeServices() = default;
 
-const SluiceHostServices& ProbeServices::services() const { return impl_->services.table(); }
+const SluiceHostServices& ProbeServices::services() const {
+    return impl_->services.table();
+}
 
 }  // namespace sluice::host

@@ -94,10 +94,10 @@ Result<SluiceFrameStats> Renderer::stats(std::uint64_t frame, std::uint64_t time
             return rendererError("poll", result, sized<SluiceError>());
         }
         if (monotonicNanoseconds() - begin >= timeout_ns) {
-            return Error{SLUICE_TIMEOUT, "renderer poll",
-                         fmt::format("frame {} did not finish within {:.3f} s", frame,
-                                     static_cast<double>(timeout_ns) * 1e-9),
-                         "raise wait_timeout_ns"};
+            return Error{
+                SLUICE_TIMEOUT, "renderer poll",
+                fmt::format("frame {} did not finish within {:.3f} s", frame, static_cast<double>(timeout_ns) * 1e-9),
+                "raise wait_timeout_ns"};
         }
         std::this_thread::sleep_for(kPollInterval);
     }

@@ -51,14 +51,16 @@ const char* firstMissing(const SluiceRendererApi& api) {
     return nullptr;
 }
 
-constexpr std::uint32_t majorOf(std::uint32_t version) { return version >> 16U; }
+constexpr std::uint32_t majorOf(std::uint32_t version) {
+    return version >> 16U;
+}
 
 Status checkTable(const std::string& thing, const SluiceRendererApi* api) {
     if (api == nullptr) {
-        return Error{SLUICE_ERROR_ABI_MISMATCH, thing,
-                     fmt::format("does not serve ABI {}.{}: its entry returned no table", SLUICE_ABI_MAJOR,
-                                 SLUICE_ABI_MINOR),
-                     kRebuild};
+        return Error{
+            SLUICE_ERROR_ABI_MISMATCH, thing,
+            fmt::format("does not serve ABI {}.{}: its entry returned no table", SLUICE_ABI_MAJOR, SLUICE_ABI_MINOR),
+            kRebuild};
     }
     // The version stands before the functions, so it can be read whatever the size of the rest.
     constexpr std::size_t kHead = offsetof(SluiceRendererApi, abi_version) + sizeof(std::uint32_t);

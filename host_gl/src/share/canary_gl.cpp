@@ -31,9 +31,7 @@ Status exchangePatterns(const ImportedImage& image, const FormatInfo& format, st
     if (const std::string errors = takeGlErrors(); !errors.empty()) {
         return Error{SLUICE_ERROR_CANARY, thing, fmt::format("reading the texture raised {}", errors), ""};
     }
-    if (Status same = canaryCompare(format.format, size.width,
-                                    size.height, seed, found);
-        !same) {
+    if (Status same = canaryCompare(format.format, size.width, size.height, seed, found); !same) {
         Error error = same.error();
         error.code = SLUICE_ERROR_CANARY;
         return error;

@@ -9,8 +9,9 @@
 
 namespace sluice::host {
 
-/// Imports `image`, compares every texel with canaryPattern(format, seed), writes canaryPattern(format, seed + 1), finishes
-/// and lets go of the image. fd as for importImage. A differing texel is SLUICE_ERROR_CANARY, with the fd untouched.
+/// Imports `image`, compares every texel with canaryPattern(format, seed), writes canaryPattern(format, seed + 1),
+/// finishes and lets go of the image. fd as for importImage. A differing texel is SLUICE_ERROR_CANARY, with the fd
+/// untouched.
 [[nodiscard]] Status runCanary(const SluiceImageExport& image, std::uint32_t seed);
 
 }  // namespace sluice::host

@@ -50,8 +50,8 @@ Status checkDescription(const SluiceImageExport& image, const FormatInfo* format
     return {};
 }
 
-/// Mesa closes the descriptor of an import even when it reports an error, others leave it open. Closes `number` only if it
-/// is still the file that `original` is.
+/// Mesa closes the descriptor of an import even when it reports an error, others leave it open. Closes `number` only if
+/// it is still the file that `original` is.
 void closeIfStillOpen(int number, int original) {
     struct stat left {};
     struct stat right {};

@@ -34,7 +34,8 @@ template <typename T>
     const std::size_t length = strnlen(said.message, sizeof(said.message));
     std::string text(said.message, length);
     // One line of printable text or UTF-8, whatever arrived.
-    std::replace_if(text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
     if (text.empty()) {
         text = "failed with code " + std::to_string(static_cast<int>(code)) + " and no message";
     }

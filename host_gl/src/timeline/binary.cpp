@@ -72,8 +72,8 @@ class BinaryTimeline final : public HostTimeline {
 Result<std::unique_ptr<HostTimeline>> makeBinaryTimeline(const TimelineDeps& deps) {
     for (const char* extension : {"GL_EXT_semaphore", "GL_EXT_semaphore_fd"}) {
         if (!epoxy_has_gl_extension(extension)) {
-            return Error{SLUICE_ERROR_UNSUPPORTED, "timeline binary",
-                         std::string("the GL driver has no ") + extension, "request timeline 'auto' or 'bridged'"};
+            return Error{SLUICE_ERROR_UNSUPPORTED, "timeline binary", std::string("the GL driver has no ") + extension,
+                         "request timeline 'auto' or 'bridged'"};
         }
     }
     return std::unique_ptr<HostTimeline>(std::make_unique<BinaryTimeline>(deps));

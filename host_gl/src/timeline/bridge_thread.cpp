@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "timeline/cpu_wait.hpp"
@@ -56,8 +58,17 @@ void BridgeThread::promise(GLsync fence, std::uint64_t value) {
     {
         const std::lock_guard lock(mutex_);
         promises_.push_back({fence, value});
+        promised_ = value;
     }
     wake_.notify_one();
+}
+
+bool BridgeThread::waitUntilKept(std::uint64_t value, std::uint64_t timeout_ns) {
+    std::unique_lock lock(mutex_);
+    const std::uint64_t last = std::min(value, promised_);
+    return kept_changed_.wait_for(lock, std::chrono::nanoseconds(timeout_ns), [&] {
+        return kept_ >= last || error_.has_value();
+    }) && !error_.has_value();
 }
 
 std::optional<Error> BridgeThread::takeError() {
@@ -110,6 +121,11 @@ void BridgeThread::keep(const Promise& promise) {
     if (const Status signalled = signalFromCpu(deps_, promise.value, SLUICE_TRACK_BRIDGE); !signalled) {
         fail(signalled.error());
     }
+    {
+        const std::lock_guard lock(mutex_);
+        kept_ = promise.value;
+    }
+    kept_changed_.notify_all();
 }
 
 Status BridgeThread::waitForFence(const Promise& promise) const {
@@ -125,10 +141,10 @@ Status BridgeThread::waitForFence(const Promise& promise) const {
         }
         const std::uint64_t deadline = deadline_;
         if (deadline != 0 && monotonicNanoseconds() >= deadline) {
-            return Error{SLUICE_TIMEOUT, "bridged timeline",
-                         fmt::format("the GL fence of value {} had not arrived when the bridge was closed",
-                                     promise.value),
-                         "the renderer was let go on without it"};
+            return Error{
+                SLUICE_TIMEOUT, "bridged timeline",
+                fmt::format("the GL fence of value {} had not arrived when the bridge was closed", promise.value),
+                "the renderer was let go on without it"};
         }
     }
 }

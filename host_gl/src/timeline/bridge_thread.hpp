@@ -21,9 +21,9 @@ namespace sluice::host {
 
 /// Waits for fences in the order in which they were promised, and signals each value once its fence has arrived.
 ///
-/// A value is signalled even when its fence fails or does not arrive before the end of the drain: the renderer's queue may
-/// be waiting for it, and a wait that is never satisfied would hang the renderer's destruction. The failure is kept and
-/// told through takeError().
+/// A value is signalled even when its fence fails or does not arrive before the end of the drain: the renderer's queue
+/// may be waiting for it, and a wait that is never satisfied would hang the renderer's destruction. The failure is kept
+/// and told through takeError().
 class BridgeThread {
   public:
     /// Returns once the thread has made its context current, or why it could not.
@@ -35,6 +35,9 @@ class BridgeThread {
 
     /// Takes the fence, whose command must have been flushed. Values increase. GL thread.
     void promise(GLsync fence, std::uint64_t value);
+    /// Waits until everything promised up to `value` has been signalled (and the calls that did so have returned), for
+    /// `timeout_ns` at most. False if the time passed or the bridge failed meanwhile. GL thread.
+    [[nodiscard]] bool waitUntilKept(std::uint64_t value, std::uint64_t timeout_ns);
     /// The first failure since the last call. GL thread.
     [[nodiscard]] std::optional<Error> takeError();
     /// True while takeError() has something to tell.
@@ -55,11 +58,12 @@ class BridgeThread {
     BridgeContext context_;
     TimelineDeps deps_;
     std::mutex mutex_;
-    std::condition_variable wake_, started_;
-    std::deque<Promise> promises_;            // guarded by mutex_
-    std::optional<Status> start_;             // guarded by mutex_
-    std::optional<Error> error_;              // guarded by mutex_
-    bool stop_ = false;                       // guarded by mutex_
+    std::condition_variable wake_, started_, kept_changed_;
+    std::deque<Promise> promises_;           // guarded by mutex_
+    std::optional<Status> start_;            // guarded by mutex_
+    std::optional<Error> error_;             // guarded by mutex_
+    std::uint64_t promised_ = 0, kept_ = 0;  // guarded by mutex_; the last value of each
+    bool stop_ = false;                      // guarded by mutex_
     std::atomic<bool> failed_{false};
     std::atomic<std::uint64_t> deadline_{0};  // of the drain, monotonic nanoseconds; 0: not stopping
     std::thread thread_;

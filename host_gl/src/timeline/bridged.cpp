@@ -2,7 +2,9 @@
 // BRIDGED: a GL fence per signal, waited for by a thread which then signals the renderer from the CPU. It runs on every
 // driver with GL_ARB_sync and lets the GL thread go on at once.
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <utility>
 
@@ -42,6 +44,21 @@ class BridgedTimeline final : public HostTimeline {
 
     [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t timeout_ns,
                               std::span<const std::uint32_t> /*textures*/) override {
+        // The renderer cannot reach frame k before gbufferWritten(k), so nothing is lost by waiting for that first. It
+        // keeps this thread out of vkWaitSemaphores while the bridge is inside vkSignalSemaphore for the same frame, a
+        // race that the validation layer of Vulkan 1.3.239 loses (it stalls for ten seconds and reports a bug of its
+        // own).
+        const std::uint64_t begin = monotonicNanoseconds();
+        if (!bridge_->waitUntilKept(gbufferWritten(value), timeout_ns)) {
+            if (std::optional<Error> error = bridge_->takeError()) {
+                return *error;
+            }
+            return Error{SLUICE_TIMEOUT, "bridged timeline",
+                         fmt::format("the GL fence of value {} did not arrive within {:.3f} s", gbufferWritten(value),
+                                     static_cast<double>(timeout_ns) * 1e-9),
+                         "raise wait_timeout_ns; the host's own GL work takes longer"};
+        }
+        timeout_ns -= std::min(monotonicNanoseconds() - begin, timeout_ns);
         Status status = waitOnCpu(deps_, value, timeout_ns, &bridge_->failed());
         // A failed bridge is the cause of whatever the wait ended with.
         if (std::optional<Error> error = bridge_->takeError()) {

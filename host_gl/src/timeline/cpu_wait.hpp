@@ -10,8 +10,8 @@
 
 namespace sluice::host {
 
-/// Blocks until the renderer-to-host counter reaches `value`; SLUICE_TIMEOUT after `timeout_ns`. Gives up early, as if the
-/// time had passed, soon after `hopeless` (may be nullptr) becomes true.
+/// Blocks until the renderer-to-host counter reaches `value`; SLUICE_TIMEOUT after `timeout_ns`. Gives up early, as if
+/// the time had passed, soon after `hopeless` (may be nullptr) becomes true.
 [[nodiscard]] Status waitOnCpu(const TimelineDeps& deps, std::uint64_t value, std::uint64_t timeout_ns,
                                const std::atomic<bool>* hopeless);
 /// Raises the host-to-renderer counter from the CPU and records it on `track`.

@@ -20,7 +20,9 @@ constexpr GLenum kTimelineValue = 0x9595;  // GL_TIMELINE_SEMAPHORE_VALUE_NV
 constexpr GLenum kType = 0x95B3;           // GL_SEMAPHORE_TYPE_NV
 constexpr GLint kTypeTimeline = 0x95B5;    // GL_SEMAPHORE_TYPE_TIMELINE_NV
 
-std::vector<GLenum> generalLayouts(std::size_t count) { return std::vector<GLenum>(count, GL_LAYOUT_GENERAL_EXT); }
+std::vector<GLenum> generalLayouts(std::size_t count) {
+    return std::vector<GLenum>(count, GL_LAYOUT_GENERAL_EXT);
+}
 
 }  // namespace
 

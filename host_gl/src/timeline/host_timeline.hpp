@@ -20,12 +20,13 @@ struct TimelineDeps {
     SluiceRenderer* renderer = nullptr;
     Trace* trace = nullptr;  ///< nullptr: tracing off
     std::function<void(SluiceLogLevel, std::string_view)> log;
-    /// BRIDGED: how long destruction waits for fences that have not arrived before it lets the renderer go on without them.
+    /// BRIDGED: how long destruction waits for fences that have not arrived before it lets the renderer go on without
+    /// them.
     std::uint64_t drain_timeout_ns = 2'000'000'000ULL;
 };
 
-/// The backend for what the renderer settled on. A GL context must be current, and stays the one that the timeline is used
-/// and destroyed with. Fails when the driver lacks what `kind` needs, naming it.
+/// The backend for what the renderer settled on. A GL context must be current, and stays the one that the timeline is
+/// used and destroyed with. Fails when the driver lacks what `kind` needs, naming it.
 [[nodiscard]] Result<std::unique_ptr<HostTimeline>> makeHostTimeline(SluiceTimelineKind kind, const TimelineDeps& deps);
 
 }  // namespace sluice::host

@@ -58,10 +58,10 @@ Result<GlSemaphore> importDirection(const TimelineDeps& deps, SluiceDirection di
 Result<std::unique_ptr<HostTimeline>> makeNativeTimeline(const TimelineDeps& deps) {
     const std::optional<NvTimelineFunctions> functions = loadNvTimelineFunctions();
     if (!functions || !epoxy_has_gl_extension("GL_EXT_semaphore") || !epoxy_has_gl_extension("GL_EXT_semaphore_fd")) {
-        return Error{SLUICE_ERROR_UNSUPPORTED, "timeline native",
-                     functions ? "the GL driver has no GL_EXT_semaphore_fd"
-                               : "the GL driver has no GL_NV_timeline_semaphore",
-                     "request timeline 'auto' or 'bridged'"};
+        return Error{
+            SLUICE_ERROR_UNSUPPORTED, "timeline native",
+            functions ? "the GL driver has no GL_EXT_semaphore_fd" : "the GL driver has no GL_NV_timeline_semaphore",
+            "request timeline 'auto' or 'bridged'"};
     }
     Result<GlSemaphore> to_renderer = importDirection(deps, SLUICE_HOST_TO_RENDERER, *functions);
     if (!to_renderer) {
@@ -71,8 +71,8 @@ Result<std::unique_ptr<HostTimeline>> makeNativeTimeline(const TimelineDeps& dep
     if (!to_host) {
         return to_host.error();
     }
-    return std::unique_ptr<HostTimeline>(std::make_unique<NativeTimeline>(deps, std::move(to_renderer).value(),
-                                                                          std::move(to_host).value()));
+    return std::unique_ptr<HostTimeline>(
+        std::make_unique<NativeTimeline>(deps, std::move(to_renderer).value(), std::move(to_host).value()));
 }
 
 }  // namespace sluice::host

@@ -9,7 +9,9 @@
 #define EXPORT __attribute__((visibility("default")))
 
 #if defined(SLUICE_BREAK_SYMBOL)
-EXPORT int sluice_not_a_renderer(void) { return 0; }
+EXPORT int sluice_not_a_renderer(void) {
+    return 0;
+}
 #elif defined(SLUICE_BREAK_TABLE)
 EXPORT const SluiceRendererApi* sluice_renderer_entry(uint32_t abi_version) {
     (void)abi_version;
@@ -119,15 +121,32 @@ static SluiceResult probe_format(const SluiceHostServices* host, const SluiceCre
     return SLUICE_ERROR_INTERNAL;
 }
 
-static void destroy(SluiceRenderer* renderer) { (void)renderer; }
+static void destroy(SluiceRenderer* renderer) {
+    (void)renderer;
+}
 
 static SluiceRendererApi api;
 
 EXPORT const SluiceRendererApi* sluice_renderer_entry(uint32_t abi_version) {
     (void)abi_version;
-    const SluiceRendererApi table = {sizeof(SluiceRendererApi), SLUICE_ABI_VERSION, "broken", "0", describe, explain,
-                                     create, info, resize, set_particles, set_environment, submit_frame, poll,
-                                     timeline_signal, timeline_wait, timeline_value, timeline_export, probe_format,
+    const SluiceRendererApi table = {sizeof(SluiceRendererApi),
+                                     SLUICE_ABI_VERSION,
+                                     "broken",
+                                     "0",
+                                     describe,
+                                     explain,
+                                     create,
+                                     info,
+                                     resize,
+                                     set_particles,
+                                     set_environment,
+                                     submit_frame,
+                                     poll,
+                                     timeline_signal,
+                                     timeline_wait,
+                                     timeline_value,
+                                     timeline_export,
+                                     probe_format,
                                      destroy};
     api = table;
 #ifdef SLUICE_BREAK_ABI_MAJOR
