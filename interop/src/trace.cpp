@@ -67,11 +67,11 @@ struct Trace::Ring {
 
     explicit Ring(std::size_t capacity) : slots(capacity) {}
 
-    std::vector<Slot> slots;
     alignas(kCacheLine) std::atomic<std::uint64_t> used{0};
     std::atomic<std::uint64_t> head{0};
     std::atomic<std::uint64_t> dropped{0};
     alignas(kCacheLine) std::uint64_t tail = 0;  ///< consumer only
+    std::vector<Slot> slots;
 };
 
 Trace::Trace(std::size_t capacity) : ring_(std::make_unique<Ring>(std::bit_ceil(std::max<std::size_t>(capacity, 1)))) {}

@@ -24,21 +24,21 @@ struct Case {
 
 /// Mostly yes, so that most cases get past the first obstacle.
 std::uint32_t flag() {
-    return *rc::gen::weightedElement<std::uint32_t>({{7, 1U}, {1, 0U}});
+    return *rc::gen::weightedElement<std::uint32_t>({{24, 1U}, {1, 0U}});
 }
 
 std::uint32_t formats() {
     const auto mask = *rc::gen::arbitrary<std::uint32_t>();
-    return *rc::gen::weightedElement<std::uint32_t>({{3, sluice::test::kAllFormats}, {2, mask}, {1, mask | 0x1186U}});
+    return *rc::gen::weightedElement<std::uint32_t>({{10, sluice::test::kAllFormats}, {1, mask}, {3, mask | 0x186U}});
 }
 
 Case arbitraryCase() {
     Case c;
-    c.gl.device_uuid_count = *rc::gen::weightedElement<std::uint32_t>({{1, 0U}, {8, 1U}, {2, 2U}, {1, 4U}});
+    c.gl.device_uuid_count = *rc::gen::weightedElement<std::uint32_t>({{1, 0U}, {16, 1U}, {4, 2U}, {2, 4U}});
     for (auto& uuid : c.gl.device_uuids) {
         std::ranges::generate(uuid, [] { return *rc::gen::inRange<std::uint8_t>(0, 2); });
     }
-    std::ranges::copy(c.gl.device_uuids[*rc::gen::weightedElement<std::size_t>({{9, 0U}, {1, 3U}})], c.vk.device_uuid);
+    std::ranges::copy(c.gl.device_uuids[*rc::gen::weightedElement<std::size_t>({{19, 0U}, {1, 3U}})], c.vk.device_uuid);
     c.vk.driver_uuid[15] = static_cast<std::uint8_t>(1U - flag());
     for (auto* member : {&c.gl.has_memory_object, &c.gl.has_memory_object_fd, &c.gl.has_sync,
                          &c.gl.has_framebuffer_object, &c.vk.has_external_memory_fd, &c.vk.has_timeline_semaphore}) {
@@ -53,12 +53,13 @@ Case arbitraryCase() {
         *member = formats();
     }
     c.request.timeline = static_cast<SluiceTimelineKind>(
-        *rc::gen::weightedElement<int>({{6, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}}));
+        *rc::gen::weightedElement<int>({{12, 0}, {1, 1}, {1, 2}, {1, 3}, {1, 4}, {1, 5}}));
     c.request.outputs = *rc::gen::inRange<std::uint32_t>(0, 16)
                         << static_cast<std::uint32_t>(SLUICE_IMAGE_FLUID_COLOUR);
     c.request.host_depth = *rc::gen::weightedElement<SluiceFormat>(
-        {{6, SLUICE_FORMAT_NONE}, {2, SLUICE_FORMAT_D32F}, {2, SLUICE_FORMAT_R32F}, {1, SLUICE_FORMAT_R8}});
-    c.request.failed_formats = *rc::gen::inRange(0, 4) == 0 ? *rc::gen::arbitrary<std::uint32_t>() : 0;
+        {{16, SLUICE_FORMAT_NONE}, {2, SLUICE_FORMAT_D32F}, {2, SLUICE_FORMAT_R32F}, {1, SLUICE_FORMAT_R8}});
+    c.request.failed_formats =
+        *rc::gen::weightedElement<bool>({{1, true}, {7, false}}) ? *rc::gen::arbitrary<std::uint32_t>() : 0;
     return c;
 }
 
