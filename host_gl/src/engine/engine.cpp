@@ -4,7 +4,8 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <cstring>
+#include <bit>
+#include <cstdint>
 #include <initializer_list>
 #include <optional>
 
@@ -31,6 +32,11 @@ constexpr float kContactAlpha = 0.55F;
 constexpr float kLowestSun = 0.05F;
 
 using Vec4 = std::array<float, 4>;
+
+/// Compared as bits, so that a NaN does not rebuild the dome in every frame.
+auto bitsOf(const SluiceSky& sky) {
+    return std::bit_cast<std::array<std::uint32_t, sizeof(SluiceSky) / sizeof(std::uint32_t)>>(sky);
+}
 
 Vec4 opaque(const Vec3& c) {
     return {c[0], c[1], c[2], 1.0F};
@@ -191,13 +197,13 @@ struct LegacyEngine::Impl {
     std::optional<SluiceSky> dome_sky;
     DisplayList dome;
 
-    explicit Impl(const EngineScene& wanted);
+    explicit Impl(EngineScene wanted);
     void drawSky(const SluiceCamera& camera, const SluiceSky& sky);
     void drawGround(const SluiceSky& sky) const;
     void drawContacts() const;
 };
 
-LegacyEngine::Impl::Impl(const EngineScene& wanted) : scene(wanted) {
+LegacyEngine::Impl::Impl(EngineScene wanted) : scene(std::move(wanted)) {
     const NoiseField noise;
     paving = Texture(paintPaving(noise));
     pool_floor = Texture(paintPoolFloor(noise));
@@ -240,7 +246,7 @@ LegacyEngine::Impl::Impl(const EngineScene& wanted) : scene(wanted) {
 }
 
 void LegacyEngine::Impl::drawSky(const SluiceCamera& camera, const SluiceSky& sky) {
-    if (!dome_sky || std::memcmp(&*dome_sky, &sky, sizeof(sky)) != 0) {
+    if (!dome_sky || bitsOf(*dome_sky) != bitsOf(sky)) {
         dome = DisplayList([&sky] { emitSkyDome(sky); });
         dome_sky = sky;
     }

@@ -26,6 +26,7 @@ std::string collapse(const std::vector<std::string>& values) {
 template <typename Query>
 void writeIndexed(Writer& writer, const char* name, int count, const Query& query) {
     std::vector<std::string> values;
+    values.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         values.push_back(query(static_cast<GLuint>(i)));
     }

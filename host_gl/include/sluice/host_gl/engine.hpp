@@ -39,7 +39,10 @@ class LegacyEngine {
     LegacyEngine& operator=(LegacyEngine&&) noexcept;
     ~LegacyEngine();
 
-    /// Clears colour and depth and draws one frame.
+    /// Clears colour, depth and stencil and draws one frame. Leaves all other state as it found it (needs one free level
+    /// of the attribute and matrix stacks). Fixed-function state is set, but no program, sampler or vertex array may be
+    /// bound, as in an engine that predates them. The sun's hue lights the scene; a sun_radiance above 1 is as bright as
+    /// this engine can show. Shadows fall on the floor only, and only if the framebuffer has a stencil.
     void draw(const SluiceCamera& camera, const SluiceSky& sky) const;
 
   private:
