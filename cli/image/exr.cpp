@@ -36,6 +36,7 @@ Status writeExr(const std::filesystem::path& path, const LayeredImage& image) {
     }
     spec.attribute("compression", "zip");
     spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("DateTime", "");  // else OpenImageIO writes the hour, and no two renders are the same file
     spec.attribute("Software", "sluice " SLUICE_VERSION);
     const auto output = OIIO::ImageOutput::create("openexr");
     if (!output) {

@@ -61,9 +61,9 @@ void addCopies(CopyBytes& sum, const std::vector<TraceRecord>& records) {
             continue;
         }
         const std::string_view name = record.name.data();
-        if (name.starts_with("readback")) {
+        if (name.starts_with("read")) {
             sum.readback += record.bytes;
-        } else if (name.starts_with("upload")) {
+        } else if (name.find("upload") != std::string_view::npos) {
             sum.upload += record.bytes;
         } else {
             sum.shared_images += record.bytes;

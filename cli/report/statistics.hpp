@@ -53,8 +53,8 @@ struct CopyBytes {
     std::uint64_t upload = 0;         ///< particles and environment
 };
 
-/// Sums CPU_COPY events. Names that begin with "readback" are output files, with "upload" buffers; all others are
-/// counted against the contract.
+/// Sums CPU_COPY events. Names that begin with "read" are sluice::host's readbacks for output files, those that contain
+/// "upload" are particles and environment maps; all others are counted against the contract.
 void addCopies(CopyBytes& sum, const std::vector<TraceRecord>& records);
 
 /// Milliseconds spent in blocking WAITs on the host's tracks.

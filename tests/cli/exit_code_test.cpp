@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: MIT
+// Exit codes of the real program, and what it leaves behind when something is wrong.
+#include <gmock/gmock.h>
+
+#include <cstring>
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace sluice::test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class ExitCode : public ProgramTest {};
+
+TEST_F(ExitCode, HelpAndVersionAreSuccess) {
+    EXPECT_EQ(run("--help").code, 0);
+    const Outcome help = run("render --help");
+    EXPECT_EQ(help.code, 0);
+    EXPECT_THAT(help.out, HasSubstr("Exit codes:"));
+    const Outcome version = run("--version");
+    EXPECT_EQ(version.code, 0);
+    EXPECT_THAT(version.out, HasSubstr("sluice "));
+}
+
+TEST_F(ExitCode, WrongCommandLinesAreOne) {
+    writeParticles("p.pos", 4);
+    writeScene("s.json", "p.pos");
+    for (const char* words :
+         {"", "paint", "render", "render s.json", "render s.json -o a.png --frames 5..1", "render s.json -o a.png --size 3",
+          "render s.json -o a.png --timeline fast", "render s.json -o a.png --image-sets 9",
+          "render s.json -o a.png --frames 1..2", "render s.json -o a.jpg", "render s.json -o a.png --layers a.png",
+          "render s.json -o a.png --json --quiet", "generate", "generate pool"}) {
+        const Outcome outcome = run(words);
+        EXPECT_EQ(outcome.code, 1) << words << "\n" << outcome.err;
+        EXPECT_FALSE(outcome.err.empty()) << words;
+    }
+    EXPECT_THAT(files(), ElementsAre("p.pos", "s.json"));
+}
+
+TEST_F(ExitCode, MissingAndBrokenScenesAreTwo) {
+    EXPECT_EQ(run("render none.json -o a.png").code, 2);
+    write("broken.json", "{\"particles\": ");
+    const Outcome outcome = run("render broken.json -o a.png");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("broken.json: not a JSON document"));
+    EXPECT_EQ(run("explain broken.json").code, 2);
+    EXPECT_THAT(files(), ElementsAre("broken.json"));
+}
+
+/// A .pos with this count in its head, this radius, and this many floats that follow.
+std::string pos(std::uint32_t count, float radius, const std::vector<float>& values) {
+    std::string bytes(8 + 4 * values.size(), '\0');
+    std::memcpy(bytes.data(), &count, 4);
+    std::memcpy(bytes.data() + 4, &radius, 4);
+    if (!values.empty()) {
+        std::memcpy(bytes.data() + 8, values.data(), 4 * values.size());
+    }
+    return bytes;
+}
+
+TEST_F(ExitCode, BadParticleFilesAreTwoAndLeaveNoOutput) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    write("truncated.pos", pos(3, 0.1F, {0, 0, 0}));
+    write("nan.pos", pos(1, 0.1F, {0, nan, 0}));
+    write("none.pos", pos(0, 0.1F, {}));
+    write("zero.pos", "");
+    write("absurd.pos", pos(4'000'000'000U, 0.1F, {0, 0, 0}));
+    write("magic.bgeo", "not a bgeo file at all");
+    write("magic.ply", "plx\nformat ascii 1.0\n");
+    writeScene("s.json", "unused.pos");
+    const std::vector<std::string> before = files();
+    for (const char* name : {"truncated.pos", "nan.pos", "none.pos", "zero.pos", "absurd.pos", "magic.bgeo", "magic.ply",
+                             "missing.pos", "unknown.xyz"}) {
+        const Outcome outcome = run(std::string("render s.json -o a.png --layers a.exr --trace a.json --particles ") + name);
+        EXPECT_EQ(outcome.code, 2) << name;
+        EXPECT_THAT(outcome.err, HasSubstr(name));
+        EXPECT_EQ(files(), before) << name;
+    }
+}
+
+TEST_F(ExitCode, ABadFrameLaterInASequenceIsFoundBeforeTheFirstOutput) {
+    writeParticles("f_0001.pos", 4);
+    write("f_0002.pos", pos(3, 0.1F, {0, 0, 0}));
+    writeScene("s.json", "f_####.pos");
+    const std::vector<std::string> before = files();
+    const Outcome outcome = run("render s.json -o a_####.png --frames 1..2");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("f_0002.pos"));
+    EXPECT_EQ(files(), before);
+}
+
+TEST_F(ExitCode, ABadEnvironmentMapIsTwo) {
+    writeParticles("p.pos", 4);
+    write("sky.exr", "no image");
+    writeScene("s.json", "p.pos", R"(, "environment": "sky.exr")");
+    const Outcome outcome = run("render s.json -o a.png");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("sky.exr"));
+    EXPECT_FALSE(exists("a.png"));
+}
+
+TEST_F(ExitCode, AMissingOrBrokenPluginIsThreeAndTheFrameIsStillWritten) {
+    writeParticles("p.pos", 4);
+    writeScene("s.json", "p.pos");
+    write("fake.so", "not a shared object");
+    ASSERT_EQ(run("render s.json -o bare.png --no-fluid").code, 0);
+    for (const char* plugin : {"/nonexistent/plugin.so", "./fake.so"}) {
+        const Outcome outcome = run(std::string("render s.json -o a.png --json --plugin ") + plugin);
+        EXPECT_EQ(outcome.code, 3) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(plugin));
+        EXPECT_EQ(read("a.png"), read("bare.png"));
+        const auto summary = nlohmann::json::parse(outcome.out);
+        EXPECT_EQ(summary.at("exit_code"), 3);
+        EXPECT_EQ(summary.at("problems").size(), 1U);
+        EXPECT_EQ(summary.at("frames").at("with_fluid"), 0);
+    }
+    const Outcome quiet = run("render s.json -o a.png --quiet --plugin /nonexistent/plugin.so");
+    EXPECT_EQ(quiet.code, 3);
+    EXPECT_EQ(quiet.out, "");
+    EXPECT_FALSE(quiet.err.empty());
+    EXPECT_EQ(run("probe --plugin /nonexistent/plugin.so").code, 3);
+    EXPECT_EQ(run("explain s.json --plugin /nonexistent/plugin.so").code, 3);
+}
+
+TEST_F(ExitCode, AnOutputThatCannotBeWrittenIsFourAndLeavesNoTemporary) {
+    writeParticles("p.pos", 4);
+    writeScene("s.json", "p.pos");
+    write("taken.png/inside", "a folder in the way");
+    const Outcome outcome = run("render s.json -o taken.png --no-fluid");
+    EXPECT_EQ(outcome.code, 4);
+    EXPECT_THAT(outcome.err, HasSubstr("taken.png"));
+    EXPECT_THAT(files(), ElementsAre("p.pos", "s.json", "taken.png"));
+}
+
+TEST_F(ExitCode, AnInterruptFinishesTheFileInHand) {
+    writeParticles("p.pos", 4);
+    writeScene("s.json", "p.pos");
+    const Outcome outcome =
+        run("render s.json -o a_####.png --no-fluid --frames 1..100000 & pid=$!; while ! test -e a_0001.png; do sleep 0.05; "
+            "done; kill -INT $pid; wait $pid");
+    EXPECT_EQ(outcome.code, 130);
+    for (const std::string& name : files()) {
+        EXPECT_EQ(name.find("partial"), std::string::npos) << name;
+    }
+}
+
+}  // namespace
+}  // namespace sluice::test
