@@ -6,7 +6,7 @@
 // Inputs:  depth in metres, 1e30 = empty. Output: the same, filtered along x (ALONG = 0) or y (1); empty stays empty.
 // A workgroup keeps LENGTH x ACROSS texels and as much on either side as its nearest pixel reaches; a workgroup without
 // fluid stops after one look. The result depends on no order: the range is that of the unfiltered centre.
-// Bound of its test: 3e-6 of the depth after three iterations and the clean-up; mirror images bit for bit.
+// Bound of its test: 3e-6 of the depth for the whole filter, but for one texel in 500 (samples on the very edge of the range).
 #include "narrow_range.glsl"
 
 layout(local_size_x_id = 1, local_size_y_id = 2) in;

@@ -7,7 +7,7 @@
 // Each axis takes the central difference where the depth bends gently, the smaller of the two one-sided differences where
 // it breaks, and a blend between, so that no line appears where the rule changes. An axis without neighbours is taken to
 // face the eye, and so does a pixel without any.
-// Bound of its test: 0.02 degrees + the step of the output format.
+// Bound of its test: 0.12 degrees, the step of the output format included.
 #include "frame.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
