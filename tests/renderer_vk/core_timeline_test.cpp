@@ -4,6 +4,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdio>
 #include <thread>
 #include <vector>
 
@@ -20,6 +21,8 @@ class Timeline : public ::testing::Test {
   protected:
     void SetUp() override {
         DeviceRequest request;
+        services.log = [](void*, std::int32_t, const char* message) { std::fprintf(stderr, "%s\n", message); };
+        request.services = &services;
         request.match_host = false;
         request.validation = true;
         Result<std::unique_ptr<Device>> made = Device::create(request);
@@ -55,6 +58,7 @@ class Timeline : public ::testing::Test {
         return true;
     }
 
+    SluiceHostServices services{};  ///< logs, so that a message that fails the test can be read
     std::unique_ptr<Device> device;
 };
 

@@ -170,12 +170,17 @@ void RendererTimeline::retireFrame(std::uint64_t frame) {
     binary_renderer_to_host_.retireThrough(fluidWritten(frame));
 }
 
-void RendererTimeline::force(std::uint64_t value) {
+void RendererTimeline::force(std::uint64_t from, std::uint64_t through) {
     const std::lock_guard guard(signal_lock_);
-    auto info = vkStruct<VkSemaphoreSignalInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO);
-    info.semaphore = host_to_renderer_;
-    info.value = value;
-    if (value > std::max(signalled_, forced_) && device_.fn.vkSignalSemaphore(device_.handle, &info) == VK_SUCCESS) {
+    // One by one: validation layer 1.3.239 takes a host signal that jumps over a value that a submission waits for as
+    // pending for ever, and reports VUID-VkSemaphoreSignalInfo-value-03259 on the next signal.
+    for (std::uint64_t value = std::max(from, signalled_) + 1; value <= through; ++value) {
+        auto info = vkStruct<VkSemaphoreSignalInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO);
+        info.semaphore = host_to_renderer_;
+        info.value = value;
+        if (device_.fn.vkSignalSemaphore(device_.handle, &info) != VK_SUCCESS) {
+            return;
+        }
         forced_ = value;
     }
 }
@@ -200,7 +205,7 @@ Drained RendererTimeline::drain(std::uint64_t grace_ns) {
                     fmt::format("host timeline: value {} was promised and never came; moved on from {} so that "
                                 "submitted frames end",
                                 last_wait_, host.value()));
-        force(last_wait_);
+        force(host.value(), last_wait_);
     }
     // Slow work is no fault: without an unkept promise it ends, however long it takes.
     return idle();

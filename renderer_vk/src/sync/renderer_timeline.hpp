@@ -70,7 +70,7 @@ class RendererTimeline {
   private:
     [[nodiscard]] bool cpuSignals() const;
     [[nodiscard]] Drained idle() const;
-    void force(std::uint64_t value);
+    void force(std::uint64_t from, std::uint64_t through);
 
     const Device& device_;
     SluiceTimelineKind kind_;
