@@ -15,16 +15,16 @@ namespace sluice {
 /// What the caller wants.
 struct NegotiationRequest {
     SluiceTimelineKind timeline = SLUICE_TIMELINE_AUTO;
-    std::uint32_t outputs = 0;                          ///< FLUID_* roles wanted, SLUICE_ROLE_BIT
-    SluiceFormat host_depth = SLUICE_FORMAT_NONE;       ///< forced format of HOST_DEPTH, or NONE
-    std::uint32_t failed_formats = 0;                   ///< bit per SluiceFormat whose canary failed on this machine
+    std::uint32_t outputs = 0;                     ///< FLUID_* roles wanted, SLUICE_ROLE_BIT
+    SluiceFormat host_depth = SLUICE_FORMAT_NONE;  ///< forced format of HOST_DEPTH, or NONE
+    std::uint32_t failed_formats = 0;              ///< bit per SluiceFormat whose canary failed on this machine
 };
 
 /// One candidate and why it was taken or passed over.
 struct Reason {
-    std::string subject;   ///< "timeline native", "HOST_DEPTH D32F", "device"
+    std::string subject;  ///< "timeline native", "HOST_DEPTH D32F", "device"
     bool accepted = false;
-    std::string why;       ///< "GL_NV_timeline_semaphore is missing"
+    std::string why;  ///< "GL_NV_timeline_semaphore is missing"
 };
 
 /// The agreement.
@@ -32,7 +32,7 @@ struct Agreement {
     SluiceTimelineKind timeline = SLUICE_TIMELINE_FINISH;
     std::array<SluiceFormat, SLUICE_IMAGE_ROLE_COUNT> formats{};
     SluiceDepthEncoding host_depth_encoding = SLUICE_DEPTH_WINDOW;
-    std::vector<Reason> reasons;   ///< every candidate that was considered, in order
+    std::vector<Reason> reasons;  ///< every candidate that was considered, in order
 };
 
 /// The preference list of formats for a role, best first. Empty for CANARY.

@@ -13,18 +13,24 @@
 namespace sluice {
 
 /// Values of frame k >= 1; docs/protocol.md explains why they suffice.
-[[nodiscard]] constexpr std::uint64_t gbufferWritten(std::uint64_t frame) { return 2 * frame - 1; }
-[[nodiscard]] constexpr std::uint64_t compositeRead(std::uint64_t frame) { return 2 * frame; }
-[[nodiscard]] constexpr std::uint64_t fluidWritten(std::uint64_t frame) { return frame; }
+[[nodiscard]] constexpr std::uint64_t gbufferWritten(std::uint64_t frame) {
+    return 2 * frame - 1;
+}
+[[nodiscard]] constexpr std::uint64_t compositeRead(std::uint64_t frame) {
+    return 2 * frame;
+}
+[[nodiscard]] constexpr std::uint64_t fluidWritten(std::uint64_t frame) {
+    return frame;
+}
 [[nodiscard]] constexpr std::uint32_t imageSetOf(std::uint64_t frame, std::uint32_t sets) {
     return static_cast<std::uint32_t>((frame - 1) % sets);
 }
 
 /// Who holds an image of a set, derived from the two counters alone.
 enum class Holder : std::uint8_t {
-    Host,            ///< may write GBuffer images, may read fluid images
-    InFlightToRenderer, ///< given up by the host, not yet taken: nobody may touch it
-    Renderer,        ///< may read GBuffer images, may write fluid images
+    Host,                ///< may write GBuffer images, may read fluid images
+    InFlightToRenderer,  ///< given up by the host, not yet taken: nobody may touch it
+    Renderer,            ///< may read GBuffer images, may write fluid images
     InFlightToHost
 };
 
@@ -34,17 +40,17 @@ class HandOff {
   public:
     explicit HandOff(std::uint32_t image_set, std::uint32_t image_sets);
 
-    /// Before the GBuffer is written. Also legal when the fluid of an earlier frame was never composited (its wait timed
-    /// out), once `renderer_value` has reached that frame.
+    /// Before the GBuffer is written. Also legal when the fluid of an earlier frame was never composited (its wait
+    /// timed out), once `renderer_value` has reached that frame.
     [[nodiscard]] Status hostAcquire(std::uint64_t frame, std::uint64_t renderer_value);
-    [[nodiscard]] Status hostRelease(std::uint64_t frame);                                ///< signals gbufferWritten(frame)
+    [[nodiscard]] Status hostRelease(std::uint64_t frame);  ///< signals gbufferWritten(frame)
     [[nodiscard]] Status rendererAcquire(std::uint64_t frame, std::uint64_t host_value);
-    [[nodiscard]] Status rendererRelease(std::uint64_t frame);                            ///< signals fluidWritten(frame)
+    [[nodiscard]] Status rendererRelease(std::uint64_t frame);  ///< signals fluidWritten(frame)
     [[nodiscard]] Status hostCompositeBegin(std::uint64_t frame, std::uint64_t renderer_value);
-    [[nodiscard]] Status hostCompositeEnd(std::uint64_t frame);                           ///< signals compositeRead(frame)
-    /// The renderer failed or was skipped for this frame: the host takes the set back without fluid, and nobody waits for
-    /// the frame's value. After rendererRelease the value is promised, so the next hostAcquire still needs it. A frame
-    /// that is not the set's present or a later one of this set is ignored.
+    [[nodiscard]] Status hostCompositeEnd(std::uint64_t frame);  ///< signals compositeRead(frame)
+    /// The renderer failed or was skipped for this frame: the host takes the set back without fluid, and nobody waits
+    /// for the frame's value. After rendererRelease the value is promised, so the next hostAcquire still needs it. A
+    /// frame that is not the set's present or a later one of this set is ignored.
     void abandon(std::uint64_t frame);
     [[nodiscard]] Holder holder() const;
 
@@ -55,8 +61,8 @@ class HandOff {
 
     std::uint32_t set_;
     std::uint32_t sets_;
-    std::uint64_t frame_ = 0;         ///< the frame that last used the set, 0 before the first
-    std::uint64_t owed_renderer_ = 0; ///< the renderer's counter must reach this before the host may write the set
+    std::uint64_t frame_ = 0;          ///< the frame that last used the set, 0 before the first
+    std::uint64_t owed_renderer_ = 0;  ///< the renderer's counter must reach this before the host may write the set
     Step step_ = Step::Idle;
 };
 

@@ -54,8 +54,10 @@ struct TraceTotals {
 };
 [[nodiscard]] TraceTotals totals(const std::vector<TraceRecord>& records);
 
-/// Chrome trace event format: one named thread per track, "X" events with args {frame, value, bytes, direction}, flow arrows
-/// ("s"/"f") from each SIGNAL to the WAITs of the same direction and value. Times are microseconds from the first event.
+/// Chrome trace event format: one named thread per track, "X" events with args {frame, value, bytes, direction}, flow
+/// arrows
+/// ("s"/"f") from each SIGNAL to the WAITs of the same direction and value. Times are microseconds from the first
+/// event.
 void writeChromeTrace(std::ostream& out, const std::vector<TraceRecord>& records, std::uint64_t dropped);
 /// The same to a file, written whole or not at all (temporary file and rename).
 [[nodiscard]] Status writeChromeTraceFile(const std::string& path, const std::vector<TraceRecord>& records,

@@ -13,8 +13,8 @@
 
 namespace sluice::particles {
 
-/// A particle set in world metres, +y up. Triples are packed; velocity (m/s) and colour (linear RGB in [0,1]) are empty or
-/// hold as many triples as position.
+/// A particle set in world metres, +y up. Triples are packed; velocity (m/s) and colour (linear RGB in [0,1]) are empty
+/// or hold as many triples as position.
 struct ParticleSet {
     float radius = 0.0F;  ///< 0 if the file has none
     std::vector<float> position;
@@ -26,9 +26,9 @@ struct ParticleSet {
 /// No format may claim more than this many particles: 256 Mi.
 inline constexpr std::uint64_t kMaxParticles = 1ULL << 28;
 
-/// Pure parsers. `name` is used in messages only. An Error names the file, the byte offset (or line), what was expected and
-/// what was found; its code is SLUICE_ERROR_INVALID_ARGUMENT. Memory use is bounded by the size of `bytes` (for gzip: by
-/// what kMaxParticles allows), never by a count that a header claims.
+/// Pure parsers. `name` is used in messages only. An Error names the file, the byte offset (or line), what was expected
+/// and what was found; its code is SLUICE_ERROR_INVALID_ARGUMENT. Memory use is bounded by the size of `bytes` (for
+/// gzip: by what kMaxParticles allows), never by a count that a header claims.
 [[nodiscard]] Result<ParticleSet> parsePos(std::span<const std::byte> bytes, const std::string& name);
 [[nodiscard]] Result<ParticleSet> parsePly(std::span<const std::byte> bytes, const std::string& name);
 [[nodiscard]] Result<ParticleSet> parseBgeo(std::span<const std::byte> bytes, const std::string& name);

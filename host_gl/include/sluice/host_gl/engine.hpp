@@ -13,25 +13,37 @@ namespace sluice::host {
 
 using Vec3 = std::array<float, 3>;
 
-struct Pillar { Vec3 base; float radius; float height; };      ///< metres; a round column with plinth and capital
-struct Crate { Vec3 centre; float size; float turn_degrees; }; ///< a wooden cube, turned about +y
+struct Pillar {
+    Vec3 base;
+    float radius;
+    float height;
+};  ///< metres; a round column with plinth and capital
+struct Crate {
+    Vec3 centre;
+    float size;
+    float turn_degrees;
+};  ///< a wooden cube, turned about +y
 /// Four stone walls around an open rectangle, standing on `floor`; inner half extents in x and z.
-struct Basin { Vec3 centre; float half_x, half_z, height, wall; };
+struct Basin {
+    Vec3 centre;
+    float half_x, half_z, height, wall;
+};
 
 /// What stands in the scene. Lengths in metres, +y up.
 struct EngineScene {
     float floor_height = 0.0F;
     float floor_half_extent = 12.0F;
-    float fog_density = 0.02F; ///< GL_EXP2
+    float fog_density = 0.02F;  ///< GL_EXP2
     std::vector<Pillar> pillars;
     std::vector<Crate> crates;
     std::vector<Basin> basins;
-    Vec3 ambient{0.35F, 0.37F, 0.42F};  ///< added to every lit surface, in sRGB-encoded values as the engine works in them
-    float enclosure_height = 3.0F;      ///< of the arcaded wall around the floor's edge; 0 leaves it out
+    Vec3 ambient{0.35F, 0.37F,
+                 0.42F};            ///< added to every lit surface, in sRGB-encoded values as the engine works in them
+    float enclosure_height = 3.0F;  ///< of the arcaded wall around the floor's edge; 0 leaves it out
 };
 
-/// Draws with display lists, fixed-function lighting and fog, procedural textures and a sky dome, into whatever framebuffer
-/// is bound. All GL names are freed on destruction, with the context current.
+/// Draws with display lists, fixed-function lighting and fog, procedural textures and a sky dome, into whatever
+/// framebuffer is bound. All GL names are freed on destruction, with the context current.
 class LegacyEngine {
   public:
     [[nodiscard]] static Result<LegacyEngine> create(const EngineScene& scene);
@@ -39,10 +51,10 @@ class LegacyEngine {
     LegacyEngine& operator=(LegacyEngine&&) noexcept;
     ~LegacyEngine();
 
-    /// Clears colour, depth and stencil and draws one frame. Leaves all other state as it found it (needs one free level
-    /// of the attribute and matrix stacks). Fixed-function state is set, but no program, sampler or vertex array may be
-    /// bound, as in an engine that predates them. The sun's hue lights the scene; a sun_radiance above 1 is as bright as
-    /// this engine can show. Shadows fall on the floor only, and only if the framebuffer has a stencil.
+    /// Clears colour, depth and stencil and draws one frame. Leaves all other state as it found it (needs one free
+    /// level of the attribute and matrix stacks). Fixed-function state is set, but no program, sampler or vertex array
+    /// may be bound, as in an engine that predates them. The sun's hue lights the scene; a sun_radiance above 1 is as
+    /// bright as this engine can show. Shadows fall on the floor only, and only if the framebuffer has a stencil.
     void draw(const SluiceCamera& camera, const SluiceSky& sky) const;
 
   private:

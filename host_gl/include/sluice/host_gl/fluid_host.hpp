@@ -25,7 +25,7 @@ struct FluidHostConfig {
     SluiceFormat host_depth = SLUICE_FORMAT_NONE;
     bool validation = false;
     std::uint64_t wait_timeout_ns = 10'000'000'000ULL;
-    Trace* trace = nullptr;     ///< must outlive the FluidHost; nullptr: tracing off
+    Trace* trace = nullptr;  ///< must outlive the FluidHost; nullptr: tracing off
     std::function<void(SluiceLogLevel, std::string_view)> log;
 };
 
@@ -65,8 +65,8 @@ class FluidHost {
     [[nodiscard]] virtual std::uint32_t texture(SluiceImageRole role) const = 0;
 };
 
-/// Host services for calls that need no FluidHost (describe, probe_format); valid while the object lives and its GL context
-/// is current.
+/// Host services for calls that need no FluidHost (describe, probe_format); valid while the object lives and its GL
+/// context is current.
 class ProbeServices {
   public:
     explicit ProbeServices(std::function<void(SluiceLogLevel, std::string_view)> log);

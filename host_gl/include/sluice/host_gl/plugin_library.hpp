@@ -12,8 +12,8 @@ namespace sluice::host {
 /// A loaded renderer library with a checked ABI. Move-only; unloading invalidates every renderer made from it.
 class PluginLibrary {
   public:
-    /// Fails with a message that names the path and the remedy when the file is missing, is not a shared object, lacks the
-    /// entry symbol, serves another ABI major, or returns an incomplete table.
+    /// Fails with a message that names the path and the remedy when the file is missing, is not a shared object, lacks
+    /// the entry symbol, serves another ABI major, or returns an incomplete table.
     [[nodiscard]] static Result<PluginLibrary> load(const std::filesystem::path& path);
     PluginLibrary(PluginLibrary&&) noexcept;
     PluginLibrary& operator=(PluginLibrary&&) noexcept;
