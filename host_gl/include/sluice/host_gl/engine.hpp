@@ -13,16 +13,18 @@ namespace sluice::host {
 
 using Vec3 = std::array<float, 3>;
 
+/// A round column with plinth and capital; metres.
 struct Pillar {
     Vec3 base;
     float radius;
     float height;
-};  ///< metres; a round column with plinth and capital
+};
+/// A wooden cube, turned about +y.
 struct Crate {
     Vec3 centre;
     float size;
     float turn_degrees;
-};  ///< a wooden cube, turned about +y
+};
 /// Four stone walls around an open rectangle, standing on `floor`; inner half extents in x and z.
 struct Basin {
     Vec3 centre;
@@ -37,8 +39,8 @@ struct EngineScene {
     std::vector<Pillar> pillars;
     std::vector<Crate> crates;
     std::vector<Basin> basins;
-    Vec3 ambient{0.35F, 0.37F,
-                 0.42F};            ///< added to every lit surface, in sRGB-encoded values as the engine works in them
+    /// Added to every lit surface, in sRGB-encoded values as the engine works in them.
+    Vec3 ambient{0.35F, 0.37F, 0.42F};
     float enclosure_height = 3.0F;  ///< of the arcaded wall around the floor's edge; 0 leaves it out
 };
 
