@@ -78,19 +78,22 @@ void addRender(Line& line) {
     CLI::App& c = *line.app.add_subcommand("render", "Render a scene's frames through both APIs");
     c.add_option("scene", o.scene, "Scene file (JSON; docs/cli.md has the schema)")->required();
     c.add_option("-o,--output", o.output, "PNG to write; #### or %04d stands for the frame's number")->required();
-    c.add_option_function<std::string>("--frames", into(o.frames, parseFrameRange), "Frames A..B instead of the scene's")
+    c.add_option_function<std::string>("--frames", into(o.frames, parseFrameRange),
+                                       "Frames A..B instead of the scene's")
         ->type_name("A..B");
     c.add_option_function<std::string>("--size", into(o.size, parseSize), "Picture size instead of the scene's")
         ->type_name("WxH");
     c.add_option("--particles", o.particles, "Particle file or numbered sequence instead of the scene's")
         ->type_name("FILE");
-    c.add_option("--layers", o.layers, "EXR with every layer: beauty, host, fluid, normal, thickness")->type_name("EXR");
+    c.add_option("--layers", o.layers, "EXR with every layer: beauty, host, fluid, normal, thickness")
+        ->type_name("EXR");
     c.add_option("--trace", o.trace, "Chrome trace of every signal, wait and pass (opens in Perfetto)")
         ->type_name("JSON");
     c.add_flag("--json", o.json, "Summary as JSON on stdout");
     c.add_flag("-q,--quiet", o.quiet, "Print nothing but errors")->excludes("--json");
     c.add_option("--plugin", o.plugin, "Renderer plugin instead of the one found")->type_name("PATH");
-    c.add_option("--timeline", o.timeline, "How the two APIs wait for each other: auto, native, binary, bridged, finish")
+    c.add_option("--timeline", o.timeline,
+                 "How the two APIs wait for each other: auto, native, binary, bridged, finish")
         ->transform(CLI::CheckedTransformer(kTimelines))
         ->type_name("KIND");
     c.add_option("--depth-format", o.depth_format, "Shared depth: auto, D32F, R32F")
@@ -106,7 +109,8 @@ void addRender(Line& line) {
     c.add_flag("--validation", o.validation, "Run under the Vulkan validation layer");
     addVerbosity(c, line);
     c.footer(std::string("A particle file may be .pos, .ply or .bgeo. Every input is checked before the first file is\n"
-                         "written, and files appear whole or not at all.\n\n") + kExitCodes);
+                         "written, and files appear whole or not at all.\n\n") +
+             kExitCodes);
     c.callback([&line] { line.run = [&line] { return render(line.render); }; });
 }
 
@@ -137,7 +141,8 @@ void addExplain(Line& line) {
 void addGenerate(Line& line) {
     GenerateOptions& o = line.generate;
     CLI::App& c = *line.app.add_subcommand("generate", "Make particle files");
-    CLI::App& pool = *c.add_subcommand("pool", "A wavy pool and a ball of liquid that falls into it, 30 frames a second");
+    CLI::App& pool =
+        *c.add_subcommand("pool", "A wavy pool and a ball of liquid that falls into it, 30 frames a second");
     pool.add_option("--particles", o.particles, "About how many")->capture_default_str();
     pool.add_option("--seed", o.seed, "Seed of the jitter")->capture_default_str();
     pool.add_option_function<std::string>("--frames", into(o.frames, parseFrameRange), "Frames A..B; frame 1 is time 0")

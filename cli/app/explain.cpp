@@ -46,12 +46,9 @@ void print(const ExplainOptions& options, const SluiceSceneNeeds& needs, const s
             notes.push_back(item["note"]);
         }
     }
-    const Json document{{"sluice", SLUICE_VERSION},
-                        {"scene", options.scene},
-                        {"size", {needs.width, needs.height}},
-                        {"particles", needs.particle_count},
-                        {"passes", passes},
-                        {"notes", notes}};
+    const Json document{
+        {"sluice", SLUICE_VERSION},          {"scene", options.scene}, {"size", {needs.width, needs.height}},
+        {"particles", needs.particle_count}, {"passes", passes},       {"notes", notes}};
     fmt::print("{}\n", document.dump(2, ' ', false, Json::error_handler_t::replace));
 }
 
@@ -87,7 +84,9 @@ int explain(const ExplainOptions& options) {
     std::vector<std::string> lines;
     SluiceError error{};
     error.struct_size = sizeof(error);
-    const auto sink = [](void* user, const char* line) { static_cast<std::vector<std::string>*>(user)->emplace_back(line); };
+    const auto sink = [](void* user, const char* line) {
+        static_cast<std::vector<std::string>*>(user)->emplace_back(line);
+    };
     if (library.value().api().explain(&needs, sink, &lines, &error) != SLUICE_OK) {
         log(SLUICE_LOG_ERROR, error.message);
         return kExitNoFluid;

@@ -19,17 +19,19 @@ namespace {
 constexpr double kFramesPerSecond = 30.0;
 
 /// Frame 1 is time 0.
-double timeOf(std::int64_t frame) { return static_cast<double>(frame - 1) / kFramesPerSecond; }
+double timeOf(std::int64_t frame) {
+    return static_cast<double>(frame - 1) / kFramesPerSecond;
+}
 
 Status checkRequest(const GenerateOptions& options) {
     if (options.frames.first < 1) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "--frames", "expected frames from 1, found 0", "frame 1 is time 0"};
     }
     if (options.frames.count() > 1 && !particles::Sequence{options.output}.numbered()) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "-o",
-                     fmt::format("\"{}\" has no place for the number of {} frames", options.output,
-                                 options.frames.count()),
-                     "put #### or %04d into the name"};
+        return Error{
+            SLUICE_ERROR_INVALID_ARGUMENT, "-o",
+            fmt::format("\"{}\" has no place for the number of {} frames", options.output, options.frames.count()),
+            "put #### or %04d into the name"};
     }
     return {};
 }
@@ -63,8 +65,8 @@ int generate(const GenerateOptions& options) {
                 return path ? kExitInternal : kExitUsage;
             }
             if (total == 1 && !options.quiet) {
-                fmt::print("{}: {} particles of radius {:.5f} m\n", path.value().string(), formatCount(set.value().count()),
-                           set.value().radius);
+                fmt::print("{}: {} particles of radius {:.5f} m\n", path.value().string(),
+                           formatCount(set.value().count()), set.value().radius);
             }
         }
     }

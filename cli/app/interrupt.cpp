@@ -9,7 +9,9 @@ namespace {
 // The one thing that a signal handler may touch, hence not a member of anything.
 volatile std::sig_atomic_t interrupt_seen = 0;
 
-void note(int /*signal*/) { interrupt_seen = 1; }
+void note(int /*signal*/) {
+    interrupt_seen = 1;
+}
 
 }  // namespace
 
@@ -22,6 +24,8 @@ void watchForInterrupt() {
     (void)sigaction(SIGTERM, &action, nullptr);
 }
 
-bool interrupted() { return interrupt_seen != 0; }
+bool interrupted() {
+    return interrupt_seen != 0;
+}
 
 }  // namespace sluice::cli

@@ -42,6 +42,8 @@ void log(SluiceLogLevel level, std::string_view message) {
     spdlog::default_logger_raw()->log(spdlogLevel(level), "{}", message);
 }
 
-void logError(const Error& error) { log(SLUICE_LOG_ERROR, error.message()); }
+void logError(const Error& error) {
+    log(SLUICE_LOG_ERROR, error.message());
+}
 
 }  // namespace sluice::cli

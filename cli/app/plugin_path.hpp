@@ -14,9 +14,10 @@ namespace sluice::cli {
 inline constexpr const char* kPluginFile = "libsluice_renderer_vk.so";
 inline constexpr const char* kPluginVariable = "SLUICE_PLUGIN";
 
-/// Pure. Places in order: what was asked for on the command line, alone; else the environment variable's value, alone; else
-/// next to the program, then ../lib/sluice. Empty strings count as not given.
-[[nodiscard]] std::vector<std::filesystem::path> pluginCandidates(const std::string& option, const std::string& variable,
+/// Pure. Places in order: what was asked for on the command line, alone; else the environment variable's value, alone;
+/// else next to the program, then ../lib/sluice. Empty strings count as not given.
+[[nodiscard]] std::vector<std::filesystem::path> pluginCandidates(const std::string& option,
+                                                                  const std::string& variable,
                                                                   const std::filesystem::path& program);
 
 /// Loads the first candidate that exists. The error names every place that was looked at.

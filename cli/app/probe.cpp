@@ -19,7 +19,9 @@ namespace {
 /// The canary's own size, and one larger than any tile of a driver, odd too.
 constexpr std::array<scene::Size, 2> kSizes{{{kCanaryWidth, kCanaryHeight}, {1283, 717}}};
 
-bool has(std::uint32_t formats, SluiceFormat format) { return (formats & formatBit(format)) != 0; }
+bool has(std::uint32_t formats, SluiceFormat format) {
+    return (formats & formatBit(format)) != 0;
+}
 
 SluiceCreateInfo createInfo(const ProbeResult& result, const ProbeOptions& options) {
     SluiceCreateInfo info{};
@@ -47,8 +49,8 @@ FormatProbe probeFormat(const FormatInfo& format, const ProbeResult& result, con
     for (const scene::Size size : kSizes) {
         SluiceError error{};
         error.struct_size = sizeof(error);
-        const SluiceResult code =
-            api.probe_format(&services, &info, static_cast<std::uint32_t>(format.format), size.width, size.height, &error);
+        const SluiceResult code = api.probe_format(&services, &info, static_cast<std::uint32_t>(format.format),
+                                                   size.width, size.height, &error);
         probe.canaries.push_back({size.width, size.height, code == SLUICE_OK, code == SLUICE_OK ? "" : error.message});
     }
     return probe;

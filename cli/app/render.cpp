@@ -52,6 +52,9 @@ Status updateParticles(Run& run, std::int64_t frame) {
     if (!set) {
         return set.error();
     }
+    if (set.value().count() == 0) {
+        log(SLUICE_LOG_WARNING, path.value().string() + ": holds no particles");
+    }
     run.summary.particles = set.value().count();
     run.summary.radius = set.value().radius;
     run.particle_file = path.value();
@@ -80,8 +83,7 @@ Status writeFiles(Run& run, const FrameResult& result, std::int64_t frame) {
             return layers.error();
         }
         const scene::CameraPath& camera = run.inputs.scene.camera;
-        if (Status status =
-                writeExr(layers.value(), layeredImage(result.layers, camera.near_plane, camera.far_plane));
+        if (Status status = writeExr(layers.value(), layeredImage(result.layers, camera.near_plane, camera.far_plane));
             !status) {
             return status;
         }
@@ -170,8 +172,7 @@ int finish(Run& run, int code) {
 void describeRenderer(Run& run) {
     run.summary.has_renderer = true;
     run.summary.plugin = run.session.library->path().string();
-    run.summary.renderer =
-        fmt::format("{} {}", run.session.library->api().name, run.session.library->api().version);
+    run.summary.renderer = fmt::format("{} {}", run.session.library->api().name, run.session.library->api().version);
     run.summary.info = run.session.fluid->info();
     run.summary.timeline_reason = run.session.timeline_reason;
 }

@@ -12,7 +12,8 @@
 namespace sluice::cli {
 namespace {
 
-constexpr std::size_t kTraceCapacity = 1U << 14U;  ///< events of one frame; a frame of first light makes about a hundred
+constexpr std::size_t kTraceCapacity = 1U
+                                       << 14U;  ///< events of one frame; a frame of first light makes about a hundred
 
 /// Milliseconds that `work` took.
 template <typename Work>

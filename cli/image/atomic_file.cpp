@@ -44,7 +44,8 @@ Status AtomicFile::commit() {
     std::error_code failure;
     std::filesystem::rename(temporary_, path_, failure);
     if (failure) {
-        return Error{SLUICE_ERROR_INTERNAL, path_.string(), fmt::format("cannot be put in place: {}", failure.message()),
+        return Error{SLUICE_ERROR_INTERNAL, path_.string(),
+                     fmt::format("cannot be put in place: {}", failure.message()),
                      "is it a folder, or is the disk full?"};
     }
     temporary_.clear();

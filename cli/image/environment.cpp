@@ -19,7 +19,8 @@ Error bad(const std::filesystem::path& path, std::string detail, std::string rem
 
 Status checkSpec(const std::filesystem::path& path, const OIIO::ImageSpec& spec) {
     if (spec.width < 2 || spec.height < 1 || spec.width > kMaxSide || spec.height > kMaxSide) {
-        return bad(path, fmt::format("expected 2x1 to {0}x{0} pixels, found {1}x{2}", kMaxSide, spec.width, spec.height),
+        return bad(path,
+                   fmt::format("expected 2x1 to {0}x{0} pixels, found {1}x{2}", kMaxSide, spec.width, spec.height),
                    "use a smaller map");
     }
     if (spec.nchannels < 1) {

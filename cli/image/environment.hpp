@@ -16,8 +16,8 @@ struct Environment {
     std::vector<float> pixels;
 };
 
-/// Any file that OpenImageIO reads (EXR, HDR, PNG, JPEG, ...). Integer files are taken as sRGB and decoded; float files as
-/// linear. One channel becomes grey. Values that are negative or not finite are an error that names the pixel.
+/// Any file that OpenImageIO reads (EXR, HDR, PNG, JPEG, ...). Integer files are taken as sRGB and decoded; float files
+/// as linear. One channel becomes grey. Values that are negative or not finite are an error that names the pixel.
 [[nodiscard]] Result<Environment> loadEnvironment(const std::filesystem::path& path);
 
 }  // namespace sluice::cli

@@ -14,7 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const char* yes(bool value) { return value ? "yes" : "-"; }
+const char* yes(bool value) {
+    return value ? "yes" : "-";
+}
 
 std::string uuid(std::span<const std::uint8_t> bytes) {
     std::string text;
@@ -65,8 +67,9 @@ std::string sides(const ProbeResult& probe) {
         text += fmt::format("          device UUID {}\n          driver UUID {}\n", uuid(vk.device_uuid),
                             uuid(vk.driver_uuid));
         text += fmt::format("          {} queue families, {} queues\n", vk.queue_families, vk.queues);
-        text += fmt::format("verdict   {}\n", probe.same_device ? "one device and one driver: memory can be shared"
-                                                                : "different devices or drivers: nothing can be shared");
+        text +=
+            fmt::format("verdict   {}\n", probe.same_device ? "one device and one driver: memory can be shared"
+                                                            : "different devices or drivers: nothing can be shared");
     }
     std::vector<std::vector<std::string>> rows{{"ability", "side", "there"}};
     for (const Ability& ability : glAbilities(gl)) {
@@ -81,8 +84,8 @@ std::string sides(const ProbeResult& probe) {
 }
 
 std::string formatsTable(const ProbeResult& probe) {
-    std::vector<std::vector<std::string>> rows{{"format", "GL texture", "GL attachment", "VK export", "VK storage",
-                                                "VK blend", "canary VK->GL->VK"}};
+    std::vector<std::vector<std::string>> rows{
+        {"format", "GL texture", "GL attachment", "VK export", "VK storage", "VK blend", "canary VK->GL->VK"}};
     for (const FormatProbe& format : probe.formats) {
         std::string canary;
         for (const CanaryTrial& trial : format.canaries) {
@@ -99,8 +102,8 @@ std::string formatsTable(const ProbeResult& probe) {
 std::string timelinesTable(const ProbeResult& probe) {
     std::vector<std::vector<std::string>> rows{{"timeline", "possible", "chosen", "why"}};
     for (const TimelineProbe& timeline : probe.timelines) {
-        rows.push_back({std::string(toString(timeline.kind)), yes(timeline.possible), yes(timeline.chosen),
-                        timeline.why});
+        rows.push_back(
+            {std::string(toString(timeline.kind)), yes(timeline.possible), yes(timeline.chosen), timeline.why});
     }
     return formatTable(rows, {});
 }
@@ -129,9 +132,12 @@ Json glJson(const SluiceHostCapabilities& gl) {
     for (std::uint32_t i = 0; i < std::min(gl.device_uuid_count, SLUICE_MAX_DEVICE_UUIDS); ++i) {
         uuids.push_back(uuid(gl.device_uuids[i]));
     }
-    return {{"vendor", gl.vendor},           {"renderer", gl.renderer},
-            {"version", gl.version},         {"device_uuids", uuids},
-            {"driver_uuid", uuid(gl.driver_uuid)}, {"abilities", abilitiesJson(glAbilities(gl))}};
+    return {{"vendor", gl.vendor},
+            {"renderer", gl.renderer},
+            {"version", gl.version},
+            {"device_uuids", uuids},
+            {"driver_uuid", uuid(gl.driver_uuid)},
+            {"abilities", abilitiesJson(glAbilities(gl))}};
 }
 
 Json vkJson(const SluiceRendererCapabilities& vk) {

@@ -11,8 +11,8 @@ namespace sluice::cli {
 std::string progressLine(std::uint64_t done, std::uint64_t total, double seconds, std::string_view doing) {
     constexpr std::size_t kWidth = 24;
     const std::size_t filled = total == 0 ? kWidth : static_cast<std::size_t>(kWidth * done / total);
-    std::string line = fmt::format("[{}{}] {}/{} frames", std::string(filled, '#'), std::string(kWidth - filled, '-'),
-                                   done, total);
+    std::string line =
+        fmt::format("[{}{}] {}/{} frames", std::string(filled, '#'), std::string(kWidth - filled, '-'), done, total);
     if (done > 0 && done < total) {
         const double each = seconds / static_cast<double>(done);
         line += fmt::format(", {:.2f} s each, {:.0f} s left", each, each * static_cast<double>(total - done));

@@ -48,7 +48,8 @@ std::string passTable(const RunSummary& s) {
         rows.push_back({"all passes", "", fmt::format("{:.3f}", total), "", "", ""});
     }
     for (const HostRow* row : hostRows(s)) {
-        rows.push_back({row->name, fmt::format("{}", row->ms.size()), fmt::format("{:.3f}", median(row->ms)), "", "", ""});
+        rows.push_back(
+            {row->name, fmt::format("{}", row->ms.size()), fmt::format("{:.3f}", median(row->ms)), "", "", ""});
     }
     return formatTable(rows, {1, 2, 3, 5});
 }
@@ -107,15 +108,16 @@ std::string summaryText(const RunSummary& s) {
                                        toString(static_cast<SluiceImageRole>(role)), formatName(s.info.formats[role]));
             }
         }
-        text += fmt::format("formats   {}; {} depth; {} image sets\n", formats, encodingName(s.info.host_depth_encoding),
-                            s.info.image_sets);
+        text += fmt::format("formats   {}; {} depth; {} image sets\n", formats,
+                            encodingName(s.info.host_depth_encoding), s.info.image_sets);
     } else {
         text += "renderer  none: frames without fluid\n";
     }
     text += "\n" + passTable(s) + "\n";
-    text += fmt::format("CPU copies of shared images in the frame loop: {} bytes. Read back for files: {}. Uploaded: {}.\n",
-                        s.copies.shared_images, formatBytes(static_cast<double>(s.copies.readback)),
-                        formatBytes(static_cast<double>(s.uploaded_bytes)));
+    text +=
+        fmt::format("CPU copies of shared images in the frame loop: {} bytes. Read back for files: {}. Uploaded: {}.\n",
+                    s.copies.shared_images, formatBytes(static_cast<double>(s.copies.readback)),
+                    formatBytes(static_cast<double>(s.uploaded_bytes)));
     if (s.validation_messages > 0) {
         text += fmt::format("validation messages: {}\n", s.validation_messages);
     }

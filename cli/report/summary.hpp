@@ -20,7 +20,7 @@ struct RunSummary {
     std::uint64_t particles = 0;  ///< of the last frame
     float radius = 0.0F;
     std::uint64_t frames_written = 0, frames_with_fluid = 0;
-    bool has_renderer = false;    ///< the next four are meaningful
+    bool has_renderer = false;  ///< the next four are meaningful
     std::string plugin, renderer;
     SluiceRendererInfo info{};
     std::string timeline_reason;

@@ -19,10 +19,9 @@ SluiceCamera cameraAt(const Scene& scene, std::int64_t frame, Size size) {
     const glm::dmat4 turn = glm::rotate(glm::dmat4(1.0), angle, glm::dvec3(0.0, 1.0, 0.0));
     const glm::dvec3 position = target + glm::dvec3(turn * glm::dvec4(start - target, 0.0));
     const glm::mat4 view(glm::lookAtRH(position, target, up));
-    const glm::mat4 projection(glm::perspectiveRH_NO(glm::radians(static_cast<double>(path.vertical_fov_degrees)),
-                                                     static_cast<double>(size.width) / size.height,
-                                                     static_cast<double>(path.near_plane),
-                                                     static_cast<double>(path.far_plane)));
+    const glm::mat4 projection(glm::perspectiveRH_NO(
+        glm::radians(static_cast<double>(path.vertical_fov_degrees)), static_cast<double>(size.width) / size.height,
+        static_cast<double>(path.near_plane), static_cast<double>(path.far_plane)));
     SluiceCamera camera{};
     std::copy_n(glm::value_ptr(view), 16, &camera.view[0]);
     std::copy_n(glm::value_ptr(projection), 16, &camera.projection[0]);

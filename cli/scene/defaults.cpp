@@ -5,8 +5,8 @@ namespace sluice::scene {
 
 SluiceFluid defaultFluid() {
     SluiceFluid fluid{};
-    // Clear water takes red first (Pope & Fry 1997: 0.34, 0.057, 0.009 per metre at 650, 550, 450 nm). A pool of half a metre
-    // would look like glass with those, so this is several times as dense; tuned on samples/courtyard.json.
+    // Clear water takes red first (Pope & Fry 1997: 0.34, 0.057, 0.009 per metre at 650, 550, 450 nm). A pool of half a
+    // metre would look like glass with those, so this is several times as dense; tuned on samples/courtyard.json.
     fluid.absorption[0] = 2.2F;
     fluid.absorption[1] = 0.45F;
     fluid.absorption[2] = 0.22F;

@@ -90,8 +90,8 @@ void ObjectReader::text(std::string_view key, std::string& out) {
 
 void ObjectReader::number(std::string_view key, float& out, const Range& range) {
     const nlohmann::json* value = find(key);
-    if (value != nullptr && require(value->is_number() && range.holds(value->get<double>()), at(key), *value,
-                                    range.text("a number"))) {
+    if (value != nullptr &&
+        require(value->is_number() && range.holds(value->get<double>()), at(key), *value, range.text("a number"))) {
         out = value->get<float>();
     }
 }
@@ -155,8 +155,7 @@ void ObjectReader::numberOf(std::string_view key, float& out, std::span<const fl
     }
 }
 
-bool ObjectReader::integers(std::string_view key, std::span<std::int64_t, 2> out, std::int64_t low,
-                            std::int64_t high) {
+bool ObjectReader::integers(std::string_view key, std::span<std::int64_t, 2> out, std::int64_t low, std::int64_t high) {
     const nlohmann::json* value = find(key);
     if (value == nullptr ||
         !require(value->is_array() && value->size() == 2, at(key), *value, "a list of 2 whole numbers")) {
@@ -202,8 +201,7 @@ void ObjectReader::requireAll() {
             // A misspelt key is both unknown and missing; the unknown one is the more useful message.
             finish();
             if (!failure_) {
-                failure_ = Error{SLUICE_ERROR_INVALID_ARGUMENT, name_,
-                                 fmt::format("{}: missing", at(key)),
+                failure_ = Error{SLUICE_ERROR_INVALID_ARGUMENT, name_, fmt::format("{}: missing", at(key)),
                                  fmt::format("every member of this list needs: {}", fmt::join(known_, ", "))};
             }
         }

@@ -13,7 +13,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// The double whose shortest text is the float's shortest text: 0.1F is written as 0.1, not as 0.10000000149.
-double shortest(float value) { return std::strtod(fmt::format("{}", value).c_str(), nullptr); }
+double shortest(float value) {
+    return std::strtod(fmt::format("{}", value).c_str(), nullptr);
+}
 
 /// The visitor that writes fields into a JSON object.
 class ObjectWriter {

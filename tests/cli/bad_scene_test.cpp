@@ -16,7 +16,9 @@ struct BadScene {
     const char* message;
 };
 
-void PrintTo(const BadScene& bad, std::ostream* out) { *out << bad.text; }
+void PrintTo(const BadScene& bad, std::ostream* out) {
+    *out << bad.text;
+}
 
 class ABadScene : public ::testing::TestWithParam<BadScene> {};
 
@@ -53,7 +55,8 @@ constexpr BadScene kBadScenes[] = {
     {"FovNull", R"({"camera": {"vertical_fov_degrees": null}})",
      "/camera/vertical_fov_degrees: expected a number in [1, 170], found null"},
     {"NearZero", R"({"camera": {"near": 0}})", "/camera/near: expected a number > 0 and at most 1000000, found 0"},
-    {"FarBeforeNear", R"({"camera": {"near": 2, "far": 1}})", "/camera/far: expected a number > near, which is 2, found 1"},
+    {"FarBeforeNear", R"({"camera": {"near": 2, "far": 1}})",
+     "/camera/far: expected a number > near, which is 2, found 1"},
     {"TargetAtPosition", R"({"camera": {"position": [1,2,3], "target": [1,2,3]}})",
      "/camera/target: expected a point other than position, found [1, 2, 3]"},
     {"UpAlongView", R"({"camera": {"position": [0,5,0], "target": [0,0,0]}})",
@@ -68,7 +71,8 @@ constexpr BadScene kBadScenes[] = {
      "/fluid/index_of_refraction: expected a number in (1, 4], found 1"},
     {"FilterUnknown", R"({"fluid": {"filter": "gauss"}})",
      R"(/fluid/filter: expected one of "none", "narrow_range", found "gauss")"},
-    {"FilterNumber", R"({"fluid": {"filter": 1}})", R"(/fluid/filter: expected one of "none", "narrow_range", found 1)"},
+    {"FilterNumber", R"({"fluid": {"filter": 1}})",
+     R"(/fluid/filter: expected one of "none", "narrow_range", found 1)"},
     {"ViewUnknown", R"({"fluid": {"view": "color"}})",
      R"(/fluid/view: expected one of "fluid", "depth", "normal", "thickness", "echo", found "color")"},
     {"IterationsMany", R"({"fluid": {"filter_iterations": 17}})",

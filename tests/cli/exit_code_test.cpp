@@ -29,11 +29,11 @@ TEST_F(ExitCode, HelpAndVersionAreSuccess) {
 TEST_F(ExitCode, WrongCommandLinesAreOne) {
     writeParticles("p.pos", 4);
     writeScene("s.json", "p.pos");
-    for (const char* words :
-         {"", "paint", "render", "render s.json", "render s.json -o a.png --frames 5..1", "render s.json -o a.png --size 3",
-          "render s.json -o a.png --timeline fast", "render s.json -o a.png --image-sets 9",
-          "render s.json -o a.png --frames 1..2", "render s.json -o a.jpg", "render s.json -o a.png --layers a.png",
-          "render s.json -o a.png --json --quiet", "generate", "generate pool"}) {
+    for (const char* words : {"", "paint", "render", "render s.json", "render s.json -o a.png --frames 5..1",
+                              "render s.json -o a.png --size 3", "render s.json -o a.png --timeline fast",
+                              "render s.json -o a.png --image-sets 9", "render s.json -o a.png --frames 1..2",
+                              "render s.json -o a.jpg", "render s.json -o a.png --layers a.png",
+                              "render s.json -o a.png --json --quiet", "generate", "generate pool"}) {
         const Outcome outcome = run(words);
         EXPECT_EQ(outcome.code, 1) << words << "\n" << outcome.err;
         EXPECT_FALSE(outcome.err.empty()) << words;
@@ -66,20 +66,30 @@ TEST_F(ExitCode, BadParticleFilesAreTwoAndLeaveNoOutput) {
     const float nan = std::numeric_limits<float>::quiet_NaN();
     write("truncated.pos", pos(3, 0.1F, {0, 0, 0}));
     write("nan.pos", pos(1, 0.1F, {0, nan, 0}));
-    write("none.pos", pos(0, 0.1F, {}));
     write("zero.pos", "");
     write("absurd.pos", pos(4'000'000'000U, 0.1F, {0, 0, 0}));
     write("magic.bgeo", "not a bgeo file at all");
     write("magic.ply", "plx\nformat ascii 1.0\n");
     writeScene("s.json", "unused.pos");
     const std::vector<std::string> before = files();
-    for (const char* name : {"truncated.pos", "nan.pos", "none.pos", "zero.pos", "absurd.pos", "magic.bgeo", "magic.ply",
+    for (const char* name : {"truncated.pos", "nan.pos", "zero.pos", "absurd.pos", "magic.bgeo", "magic.ply",
                              "missing.pos", "unknown.xyz"}) {
-        const Outcome outcome = run(std::string("render s.json -o a.png --layers a.exr --trace a.json --particles ") + name);
+        const Outcome outcome =
+            run(std::string("render s.json -o a.png --layers a.exr --trace a.json --particles ") + name);
         EXPECT_EQ(outcome.code, 2) << name;
         EXPECT_THAT(outcome.err, HasSubstr(name));
         EXPECT_EQ(files(), before) << name;
     }
+}
+
+TEST_F(ExitCode, AFileOfNoParticlesIsAFrameWithoutFluidAndAWarning) {
+    write("none.pos", pos(0, 0.1F, {}));
+    writeScene("s.json", "none.pos");
+    const Outcome outcome = run("render s.json -o a.png");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("none.pos: holds no particles"));
+    ASSERT_EQ(run("render s.json -o bare.png --no-fluid").code, 0);
+    EXPECT_TRUE(read("a.png") == read("bare.png"));
 }
 
 TEST_F(ExitCode, ABadFrameLaterInASequenceIsFoundBeforeTheFirstOutput) {
@@ -139,12 +149,20 @@ TEST_F(ExitCode, AnOutputThatCannotBeWrittenIsFourAndLeavesNoTemporary) {
 TEST_F(ExitCode, AnInterruptFinishesTheFileInHand) {
     writeParticles("p.pos", 4);
     writeScene("s.json", "p.pos");
+    constexpr int kMoreThanTimeAllows = 20'000;
     const Outcome outcome =
-        run("render s.json -o a_####.png --no-fluid --frames 1..100000 & pid=$!; while ! test -e a_0001.png; do sleep 0.05; "
-            "done; kill -INT $pid; wait $pid");
+        run("render s.json -o a_#####.png --no-fluid --quiet --frames 1.." + std::to_string(kMoreThanTimeAllows),
+            "timeout --preserve-status --signal INT 4");
     EXPECT_EQ(outcome.code, 130);
-    for (const std::string& name : files()) {
+    const std::vector<std::string> names = files();
+    EXPECT_GT(names.size(), 2U);
+    EXPECT_LT(names.size(), kMoreThanTimeAllows);
+    for (const std::string& name : names) {
         EXPECT_EQ(name.find("partial"), std::string::npos) << name;
+        if (name.ends_with(".png")) {
+            // The last chunk of a whole PNG.
+            EXPECT_NE(read(name).find("IEND"), std::string::npos) << name;
+        }
     }
 }
 

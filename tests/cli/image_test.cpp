@@ -15,7 +15,9 @@
 namespace sluice::cli {
 namespace {
 
-std::filesystem::path temporary(const std::string& name) { return std::filesystem::path(::testing::TempDir()) / name; }
+std::filesystem::path temporary(const std::string& name) {
+    return std::filesystem::path(::testing::TempDir()) / name;
+}
 
 TEST(Colour, DecodesSrgb) {
     EXPECT_EQ(srgbToLinear(0.0F), 0.0F);
@@ -37,9 +39,9 @@ TEST(Colour, LinearDepthInvertsThePerspective) {
 }
 
 TEST(Png, KeepsEveryByteAndDropsAlpha) {
-    const host::Pixels pixels{3, 2, 4, {0.0F, 1.0F, 0.5F, 0.2F, 10 / 255.0F, 20 / 255.0F, 30 / 255.0F, 1.0F,
-                                        -1.0F, 2.0F, 0.0F, 0.0F, 1.0F, 1.0F, 1.0F, 1.0F,
-                                        0.0F, 0.0F, 0.0F, 0.0F, 250 / 255.0F, 251 / 255.0F, 252 / 255.0F, 0.0F}};
+    const host::Pixels pixels{3, 2, 4, {0.0F,  1.0F, 0.5F, 0.2F, 10 / 255.0F,  20 / 255.0F,  30 / 255.0F,  1.0F,
+                                        -1.0F, 2.0F, 0.0F, 0.0F, 1.0F,         1.0F,         1.0F,         1.0F,
+                                        0.0F,  0.0F, 0.0F, 0.0F, 250 / 255.0F, 251 / 255.0F, 252 / 255.0F, 0.0F}};
     const auto path = temporary("sluice-png-test.png");
     ASSERT_TRUE(writePng(path, pixels).ok());
     const auto input = OIIO::ImageInput::open(path.string());
@@ -47,7 +49,8 @@ TEST(Png, KeepsEveryByteAndDropsAlpha) {
     ASSERT_EQ(input->spec().nchannels, 3);
     std::vector<unsigned char> bytes(18);
     ASSERT_TRUE(input->read_image(0, 0, 0, 3, OIIO::TypeDesc::UINT8, bytes.data()));
-    const std::vector<unsigned char> expected{0, 255, 128, 10, 20, 30, 0, 255, 0, 255, 255, 255, 0, 0, 0, 250, 251, 252};
+    const std::vector<unsigned char> expected{0,   255, 128, 10, 20, 30, 0,   255, 0,
+                                              255, 255, 255, 0,  0,  0,  250, 251, 252};
     EXPECT_EQ(bytes, expected);
     std::filesystem::remove(path);
 }

@@ -19,13 +19,16 @@ void ProgramTest::SetUp() {
     folder_ = name;
 }
 
-void ProgramTest::TearDown() { std::filesystem::remove_all(folder_); }
+void ProgramTest::TearDown() {
+    std::filesystem::remove_all(folder_);
+}
 
-Outcome ProgramTest::run(const std::string& words) const {
+Outcome ProgramTest::run(const std::string& words, const std::string& wrapper) const {
     const std::filesystem::path out = folder_.string() + ".out";
     const std::filesystem::path err = folder_.string() + ".err";
-    const std::string command = fmt::format("cd '{}' && unset SLUICE_PLUGIN && '{}' {} >'{}' 2>'{}'", folder_.string(),
-                                            SLUICE_PROGRAM, words, out.string(), err.string());
+    const std::string command =
+        fmt::format("cd '{}' && unset SLUICE_PLUGIN && {} '{}' {} >'{}' 2>'{}'", folder_.string(), wrapper,
+                    SLUICE_PROGRAM, words, out.string(), err.string());
     const int status = std::system(command.c_str());
     const auto slurp = [](const std::filesystem::path& path) {
         std::ifstream file(path, std::ios::binary);

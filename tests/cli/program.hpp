@@ -22,7 +22,8 @@ class ProgramTest : public ::testing::Test {
     void TearDown() override;
 
     /// Runs `sluice` with shell words; stdout and stderr are captured. 128 + signal if it was killed.
-    Outcome run(const std::string& words) const;
+    /// `wrapper` is a command that runs the program (timeout).
+    Outcome run(const std::string& words, const std::string& wrapper = "") const;
     void write(const std::string& name, const std::string& bytes) const;
     /// A lattice of n^3 particles in [-0.5,0.5] x [0,1] x [-0.5,0.5] as .pos.
     void writeParticles(const std::string& name, unsigned n) const;

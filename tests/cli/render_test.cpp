@@ -79,8 +79,8 @@ TEST_F(Render, LayersHaveTheirNamesSizesAndMeanings) {
     const Image exr = readImage(at("a.exr"));
     ASSERT_EQ(exr.spec.width, 160);
     ASSERT_EQ(exr.spec.height, 90);
-    const std::vector<std::string> expected{"R",       "G",       "B",       "A",        "host.R",   "host.G",
-                                            "host.B",  "host.Z",  "fluid.R", "fluid.G",  "fluid.B",  "fluid.A",
+    const std::vector<std::string> expected{"R",       "G",        "B",        "A",        "host.R",     "host.G",
+                                            "host.B",  "host.Z",   "fluid.R",  "fluid.G",  "fluid.B",    "fluid.A",
                                             "fluid.Z", "normal.X", "normal.Y", "normal.Z", "thickness.Y"};
     ASSERT_THAT(exr.spec.channelnames, UnorderedElementsAreArray(expected));
     // The camera looks at the middle of a cube of side 1, 2.9 m away; the cube's near side is within 0.87 m of that.
@@ -207,8 +207,9 @@ TEST_F(Render, ExplainNamesEveryPassOnce) {
     const Outcome text = run("explain s.json");
     ASSERT_EQ(text.code, 0) << text.err;
     EXPECT_THAT(text.out, HasSubstr("splat_depth"));
-    writeScene("plain.json", "p.pos",
-               R"(, "fluid": {"refraction": false, "absorption": [0,0,0], "scatter_colour": [0,0,0], "filter": "none"})");
+    writeScene(
+        "plain.json", "p.pos",
+        R"(, "fluid": {"refraction": false, "absorption": [0,0,0], "scatter_colour": [0,0,0], "filter": "none"})");
     const auto full = nlohmann::json::parse(run("explain s.json --json").out);
     const auto plain = nlohmann::json::parse(run("explain plain.json --json").out);
     const auto kept = [](const nlohmann::json& document, const std::string& name) {
@@ -239,7 +240,8 @@ TEST_F(Render, ProbeAgreesWithWhatRenderUses) {
     }
     const auto summary = nlohmann::json::parse(run("render s.json -o a.png --json").out);
     EXPECT_EQ(summary.at("renderer").at("timeline"), probe.at("agreement").at("timeline"));
-    EXPECT_EQ(summary.at("renderer").at("formats").at("HOST_DEPTH"), probe.at("agreement").at("formats").at("HOST_DEPTH"));
+    EXPECT_EQ(summary.at("renderer").at("formats").at("HOST_DEPTH"),
+              probe.at("agreement").at("formats").at("HOST_DEPTH"));
 }
 
 }  // namespace

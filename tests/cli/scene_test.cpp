@@ -60,8 +60,12 @@ TEST(SceneFile, EveryKeyIsRead) {
 }
 
 /// Thousandths, so that counter-examples read well.
-float thousandths(int low, int high) { return static_cast<float>(*rc::gen::inRange(low, high)) / 1000.0F; }
-Vec3 vector(int low, int high) { return {thousandths(low, high), thousandths(low, high), thousandths(low, high)}; }
+float thousandths(int low, int high) {
+    return static_cast<float>(*rc::gen::inRange(low, high)) / 1000.0F;
+}
+Vec3 vector(int low, int high) {
+    return {thousandths(low, high), thousandths(low, high), thousandths(low, high)};
+}
 
 RC_GTEST_PROP(SceneFile, WritingAndReadingAreInverse, ()) {
     Scene scene;

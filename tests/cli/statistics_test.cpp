@@ -81,8 +81,7 @@ TEST(Waits, AreThoseOfTheHostOnly) {
 }
 
 TEST(Table, AlignsColumns) {
-    EXPECT_EQ(formatTable({{"a", "b"}, {"long", "1"}, {"x", "22"}}, {1}),
-              "a      b\n----  --\nlong   1\nx     22\n");
+    EXPECT_EQ(formatTable({{"a", "b"}, {"long", "1"}, {"x", "22"}}, {1}), "a      b\n----  --\nlong   1\nx     22\n");
 }
 
 TEST(Table, CountsAndBytesReadWell) {

@@ -28,7 +28,8 @@ TEST(FrameRangeText, RefusesEverythingElse) {
 TEST(SizeText, AcceptsPositiveSizesAndRefusesTheRest) {
     EXPECT_EQ(parseSize("1280x720").value(), (scene::Size{1280, 720}));
     EXPECT_EQ(parseSize("1x16384").value(), (scene::Size{1, 16384}));
-    for (const char* text : {"", "x", "1x", "x1", "0x5", "5x0", "16385x1", "1280X720", "1280 x 720", "-3x4", "3x4x5", "3"}) {
+    for (const char* text :
+         {"", "x", "1x", "x1", "0x5", "5x0", "16385x1", "1280X720", "1280 x 720", "-3x4", "3x4x5", "3"}) {
         EXPECT_FALSE(parseSize(text).ok()) << text;
     }
 }

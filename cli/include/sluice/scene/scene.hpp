@@ -35,10 +35,10 @@ inline constexpr std::int64_t kMaxFrame = 1'000'000'000;
 
 /// A particle file or numbered sequence; world position = scale * file position + translate.
 struct ParticleSource {
-    std::string path;      ///< pattern ("pool_####.pos") or one file; resolved against the scene file; empty: none given
-    float radius = 0.0F;   ///< metres, before scaling, for files that carry none; 0: such a file is an error
-    float scale = 1.0F;    ///< scales the radius too
-    Vec3 translate{};      ///< metres
+    std::string path;     ///< pattern ("pool_####.pos") or one file; resolved against the scene file; empty: none given
+    float radius = 0.0F;  ///< metres, before scaling, for files that carry none; 0: such a file is an error
+    float scale = 1.0F;   ///< scales the radius too
+    Vec3 translate{};     ///< metres
 };
 
 /// The camera of every frame. Orbit turns position about the vertical axis through target.
