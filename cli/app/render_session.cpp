@@ -87,7 +87,8 @@ Result<RenderSession> createSession(const RenderInputs& inputs) {
     if (!engine) {
         return engine.error();
     }
-    return RenderSession{std::make_unique<Trace>(kTraceCapacity),
+    auto trace = std::make_unique<Trace>(kTraceCapacity);
+    return RenderSession{std::move(trace),
                          std::move(context).value(),
                          std::move(screen).value(),
                          std::move(engine).value(),

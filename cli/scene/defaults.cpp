@@ -8,11 +8,11 @@ SluiceFluid defaultFluid() {
     // Clear water takes red first (Pope & Fry 1997: 0.34, 0.057, 0.009 per metre at 650, 550, 450 nm). A pool of half a
     // metre would look like glass with those, so this is several times as dense; tuned on samples/courtyard.json.
     fluid.absorption[0] = 2.2F;
-    fluid.absorption[1] = 0.45F;
-    fluid.absorption[2] = 0.22F;
-    fluid.scatter_colour[0] = 0.01F;
-    fluid.scatter_colour[1] = 0.05F;
-    fluid.scatter_colour[2] = 0.07F;
+    fluid.absorption[1] = 0.5F;
+    fluid.absorption[2] = 0.26F;
+    fluid.scatter_colour[0] = 0.015F;
+    fluid.scatter_colour[1] = 0.08F;
+    fluid.scatter_colour[2] = 0.105F;
     fluid.index_of_refraction = 1.33F;
     fluid.specular_power = 250.0F;
     fluid.splat_radius = 1.5F;
