@@ -33,14 +33,15 @@ float octagonDistance(float x, float y) {
     return std::max(square, diamond);
 }
 
-Vec3 blues(float pick) {
-    if (pick < 0.34F) {
-        return kAqua;
+/// Pale, so that it is still seen through half a metre of water.
+Vec3 paleBlues(float pick) {
+    if (pick < 0.40F) {
+        return mix(kAqua, kWhite, 0.55F);
     }
     if (pick < 0.62F) {
-        return kTeal;
+        return kAqua;
     }
-    return pick < 0.93F ? mix(kAqua, kCobalt, 0.45F) : kWhite;
+    return pick < 0.70F ? kTeal : kWhite;
 }
 
 /// The pool floor's design at p in [-1,1]^2, before it is cut into tesserae.
@@ -82,7 +83,7 @@ Vec3 medallion(float x, float y, float pick) {
     }
     const float lattice = std::min(std::abs(std::fmod(x + y + 8.0F, 0.375F) - 0.1875F),
                                    std::abs(std::fmod(x - y + 8.0F, 0.375F) - 0.1875F));
-    return lattice < 0.024F ? kWhite : blues(pick);
+    return lattice < 0.024F ? kTeal : paleBlues(pick);
 }
 
 /// Cuts a design into square stones with grout between; each stone has its own lightness.
