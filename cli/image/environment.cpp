@@ -48,8 +48,7 @@ Result<Environment> loadEnvironment(const std::filesystem::path& path) {
     if (!input->read_image(0, 0, 0, static_cast<int>(channels), OIIO::TypeDesc::FLOAT, read.data())) {
         return bad(path, fmt::format("cannot be read to its end: {}", input->geterror()), "is the file complete?");
     }
-    const bool encoded = spec.format != OIIO::TypeDesc::HALF && spec.format != OIIO::TypeDesc::FLOAT &&
-                         spec.format != OIIO::TypeDesc::DOUBLE;
+    const bool encoded = !spec.format.is_floating_point();
     map.pixels.resize(texels * 3);
     for (std::size_t i = 0; i < map.pixels.size(); ++i) {
         const std::size_t texel = i / 3;
