@@ -13,8 +13,8 @@
 
 namespace sluice::vk::test {
 
-/// Tuned on the coarse conforming set (normal error 3.26 pool, 1.01 ball, degrees). p100k.pos still looks grainy with it:
-/// filter_sigma 1.2, filter_range 6, filter_clamp 1 is smoother there and scores 4.56, 0.85.
+/// Tuned on the coarse conforming set (normal error 3.26 pool, 1.01 ball, degrees). p100k.pos still looks grainy with
+/// it: filter_sigma 1.2, filter_range 6, filter_clamp 1 is smoother there and scores 4.56, 0.85.
 inline constexpr SluiceFluid kWater{
     .absorption = {1.8F, 0.45F, 0.25F},
     .scatter_colour = {0.005F, 0.035F, 0.045F},
