@@ -33,6 +33,16 @@ float octagonDistance(float x, float y) {
     return std::max(square, diamond);
 }
 
+Vec3 blues(float pick) {
+    if (pick < 0.34F) {
+        return kAqua;
+    }
+    if (pick < 0.62F) {
+        return kTeal;
+    }
+    return pick < 0.93F ? mix(kAqua, kCobalt, 0.45F) : kWhite;
+}
+
 /// Pale, so that it is still seen through half a metre of water.
 Vec3 paleBlues(float pick) {
     if (pick < 0.40F) {
