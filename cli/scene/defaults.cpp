@@ -7,12 +7,12 @@ SluiceFluid defaultFluid() {
     SluiceFluid fluid{};
     // Clear water takes red first (Pope & Fry 1997: 0.34, 0.057, 0.009 per metre at 650, 550, 450 nm). A pool of half a
     // metre would look like glass with those, so this is several times as dense; tuned on samples/courtyard.json.
-    fluid.absorption[0] = 2.2F;
-    fluid.absorption[1] = 0.5F;
-    fluid.absorption[2] = 0.26F;
-    fluid.scatter_colour[0] = 0.015F;
-    fluid.scatter_colour[1] = 0.08F;
-    fluid.scatter_colour[2] = 0.105F;
+    fluid.absorption[0] = 1.7F;
+    fluid.absorption[1] = 0.36F;
+    fluid.absorption[2] = 0.18F;
+    fluid.scatter_colour[0] = 0.010F;
+    fluid.scatter_colour[1] = 0.055F;
+    fluid.scatter_colour[2] = 0.075F;
     fluid.index_of_refraction = 1.33F;
     fluid.specular_power = 250.0F;
     fluid.splat_radius = 1.5F;
@@ -35,7 +35,7 @@ SluiceSky defaultSky() {
     const Vec3 zenith{0.10F, 0.24F, 0.58F};
     const Vec3 horizon{0.60F, 0.72F, 0.85F};
     const Vec3 ground{0.20F, 0.18F, 0.15F};
-    const Vec3 to_sun{0.6F, 0.6244998F, 0.5F};  // across the pool from the default camera, so that the water glitters
+    const Vec3 to_sun{0.5017864F, 0.7754881F, 0.3831823F};  // beyond the pool as the camera sees it: the water glitters
     const Vec3 sun{12.0F, 11.0F, 9.0F};
     for (std::size_t i = 0; i < 3; ++i) {
         sky.zenith[i] = zenith[i];

@@ -45,9 +45,8 @@ class BridgedTimeline final : public HostTimeline {
     [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t timeout_ns,
                               std::span<const std::uint32_t> /*textures*/) override {
         // The renderer cannot reach frame k before gbufferWritten(k), so nothing is lost by waiting for that first. It
-        // keeps this thread out of vkWaitSemaphores while the bridge is inside vkSignalSemaphore for the same frame, a
-        // race that the validation layer of Vulkan 1.3.239 loses (it stalls for ten seconds and reports a bug of its
-        // own).
+        // keeps this thread out of vkWaitSemaphores while the bridge is inside vkSignalSemaphore for the same frame;
+        // docs/validation.md tells what the validation layer was seen to do when both were inside.
         const std::uint64_t begin = monotonicNanoseconds();
         if (!bridge_->waitUntilKept(gbufferWritten(value), timeout_ns)) {
             if (std::optional<Error> error = bridge_->takeError()) {
