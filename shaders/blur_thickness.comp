@@ -11,13 +11,14 @@
 // gets the mean of its neighbours, so that reading between texels finds no hole there.
 // Bound of its test: 1e-5 of the largest thickness.
 #include "frame.glsl"
+#include "tiles.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(constant_id = 0) const uint ALONG = 0u;
 
-layout(set = 0, binding = 1) uniform texture2D thickness_in;
-layout(set = 0, binding = 2) uniform texture2D depth_in;
-layout(set = 0, binding = 3) writeonly uniform image2D thickness_out;
+layout(set = 0, binding = 2) uniform texture2D thickness_in;
+layout(set = 0, binding = 3) uniform texture2D depth_in;
+layout(set = 0, binding = 4) writeonly uniform image2D thickness_out;
 
 const float CAP = 24.0;  // texels; beyond it a near camera would pay for detail that it cannot see
 
@@ -35,7 +36,7 @@ float nearestDepth(ivec2 texel) {
 }
 
 void main() {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 texel = tileTexel();
     const ivec2 size = imageSize(thickness_out);
     if (any(greaterThanEqual(texel, size))) {
         return;

@@ -6,64 +6,51 @@
 // Inputs:  depth in metres, 1e30 = empty. Output: the same, filtered.
 // Bound of its test: see filter_line.comp.
 #include "narrow_range.glsl"
+#include "tiles.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
-layout(set = 0, binding = 1) uniform texture2D depth_in;
-layout(set = 0, binding = 2) writeonly uniform image2D depth_out;
+layout(set = 0, binding = 2) uniform texture2D depth_in;
+layout(set = 0, binding = 3) writeonly uniform image2D depth_out;
 
 const int RADIUS = 4;
-const int SIDE = 16 + 2 * RADIUS;
 // The streaks are a texel or two wide whatever the fluid's size on the screen; never wider than the main kernel, though.
 const float CLEAN_SIGMA = float(RADIUS) / 3.0;
 
-shared float tile[SIDE * SIDE];
-
-float fetchDepth(ivec2 texel) {
-    const bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(frame.size.xy)));
-    return inside ? texelFetch(depth_in, texel, 0).r : EMPTY_DEPTH;
-}
+float depthAt(ivec2 texel) { return texelFetch(depth_in, texel, 0).r; }
 
 void main() {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
-    const ivec2 corner = ivec2(gl_WorkGroupID.xy) * 16 - RADIUS;
-    for (int index = int(gl_LocalInvocationIndex); index < SIDE * SIDE; index += 256) {
-        const float d = fetchDepth(corner + ivec2(index % SIDE, index / SIDE));
-        tile[index] = isEmpty(d) ? 0.0 : 1.0 / d;
-    }
-    barrier();
-    if (any(greaterThanEqual(texel, ivec2(frame.size.xy)))) {
+    const ivec2 texel = tileTexel();
+    const ivec2 size = ivec2(frame.size.xy);
+    if (any(greaterThanEqual(texel, size))) {
         return;
     }
-    const int centre = (int(gl_LocalInvocationID.y) + RADIUS) * SIDE + int(gl_LocalInvocationID.x) + RADIUS;
-    const float reciprocal = tile[centre];
-    if (reciprocal <= 0.0) {
-        imageStore(depth_out, texel, vec4(EMPTY_DEPTH));
-        return;
-    }
-    const float depth = 1.0 / reciprocal;
+    const float depth = texelFetch(depth_in, texel, 0).r;
     const Range range = rangeOf(depth);
     const float sigma = min(CLEAN_SIGMA, sigmaPixels(depth, min(frame.focal.x, frame.focal.y)));
-    const int reach = min(RADIUS, int(ceil(3.0 * sigma)));
+    const int reach = isEmpty(depth) ? 0 : min(RADIUS, int(ceil(3.0 * sigma)));
+    // A sample whose mirror image lies outside the picture does not count: the shorter side ends the loops.
+    const ivec2 inside = min(ivec2(reach), min(texel, size - 1 - texel));
     const float falloff = -0.5 / (sigma * sigma);
-    float sum = reciprocal;
+    float sum = 1.0 / depth;
     float weights = 1.0;
-    for (int k = 1; k <= reach; ++k) {
-        const float weight = exp(falloff * float(k * k));
-        addPair(range, tile[centre + k], tile[centre - k], weight, sum, weights);
-        addPair(range, tile[centre + k * SIDE], tile[centre - k * SIDE], weight, sum, weights);
+    for (int x = 1; x <= inside.x; ++x) {
+        addPair(range, depthAt(texel + ivec2(x, 0)), depthAt(texel - ivec2(x, 0)), exp(falloff * float(x * x)), sum,
+                weights);
     }
-    for (int y = 1; y <= reach; ++y) {
-        for (int x = 1; x <= reach; ++x) {
+    for (int y = 1; y <= inside.y; ++y) {
+        addPair(range, depthAt(texel + ivec2(0, y)), depthAt(texel - ivec2(0, y)), exp(falloff * float(y * y)), sum,
+                weights);
+        for (int x = 1; x <= inside.x; ++x) {
             // Both diagonals' pairs in one step: a mirror only swaps them, and the sum stays the same to the bit.
             float values = 0.0;
             float count = 0.0;
-            addPair(range, tile[centre + y * SIDE + x], tile[centre - y * SIDE - x], 1.0, values, count);
-            addPair(range, tile[centre + y * SIDE - x], tile[centre - y * SIDE + x], 1.0, values, count);
+            addPair(range, depthAt(texel + ivec2(x, y)), depthAt(texel - ivec2(x, y)), 1.0, values, count);
+            addPair(range, depthAt(texel + ivec2(-x, y)), depthAt(texel - ivec2(-x, y)), 1.0, values, count);
             const float weight = exp(falloff * float(x * x + y * y));
             sum += weight * values;
             weights += weight * count;
         }
     }
-    imageStore(depth_out, texel, vec4(weights / sum));
+    imageStore(depth_out, texel, vec4(isEmpty(depth) ? EMPTY_DEPTH : weights / sum));
 }

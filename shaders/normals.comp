@@ -9,11 +9,12 @@
 // face the eye, and so does a pixel without any.
 // Bound of its test: 0.12 degrees, the step of the output format included.
 #include "frame.glsl"
+#include "tiles.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 
-layout(set = 0, binding = 1) uniform texture2D depth_in;
-layout(set = 0, binding = 2) writeonly uniform image2D normal_out;
+layout(set = 0, binding = 2) uniform texture2D depth_in;
+layout(set = 0, binding = 3) writeonly uniform image2D normal_out;
 
 float depthAt(ivec2 texel) {
     const bool inside = all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, ivec2(frame.size.xy)));
@@ -44,7 +45,7 @@ vec3 tangentAlong(ivec2 texel, ivec2 step, float depth, vec3 point, float bend) 
 }
 
 void main() {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 texel = tileTexel();
     if (any(greaterThanEqual(texel, ivec2(frame.size.xy)))) {
         return;
     }

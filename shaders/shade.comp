@@ -13,6 +13,7 @@
 #include "environment.glsl"
 #include "sky.glsl"
 #include "srgb.glsl"
+#include "tiles.glsl"
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(constant_id = 0) const uint VIEW = 0u;           // SluiceView
@@ -23,16 +24,16 @@ layout(constant_id = 4) const uint REFLECTION = 1u;     // 0 none, 1 procedural 
 layout(constant_id = 5) const uint WRITE_NORMAL = 0u;
 layout(constant_id = 6) const uint WRITE_THICKNESS = 0u;
 
-layout(set = 0, binding = 1) uniform texture2D depth_in;
-layout(set = 0, binding = 2) uniform texture2D host_depth;
-layout(set = 0, binding = 3) uniform texture2D normal_in;
-layout(set = 0, binding = 4) uniform texture2D thickness_in;
-layout(set = 0, binding = 5) uniform texture2D host_colour;
-layout(set = 0, binding = 6) uniform texture2D environment;
-layout(set = 0, binding = 7) writeonly uniform image2D fluid_colour;
-layout(set = 0, binding = 8) writeonly uniform image2D fluid_depth;
-layout(set = 0, binding = 9) writeonly uniform image2D fluid_normal;
-layout(set = 0, binding = 10) writeonly uniform image2D fluid_thickness;
+layout(set = 0, binding = 2) uniform texture2D depth_in;
+layout(set = 0, binding = 3) uniform texture2D host_depth;
+layout(set = 0, binding = 4) uniform texture2D normal_in;
+layout(set = 0, binding = 5) uniform texture2D thickness_in;
+layout(set = 0, binding = 6) uniform texture2D host_colour;
+layout(set = 0, binding = 7) uniform texture2D environment;
+layout(set = 0, binding = 8) writeonly uniform image2D fluid_colour;
+layout(set = 0, binding = 9) writeonly uniform image2D fluid_depth;
+layout(set = 0, binding = 10) writeonly uniform image2D fluid_normal;
+layout(set = 0, binding = 11) writeonly uniform image2D fluid_thickness;
 
 const uint VIEW_FLUID = 0u, VIEW_DEPTH = 1u, VIEW_NORMAL = 2u, VIEW_THICKNESS = 3u;
 
@@ -142,7 +143,7 @@ vec4 shadeFluid(ivec2 texel, vec3 ray, float depth, vec3 normal, float path) {
 }
 
 void main() {
-    const ivec2 texel = ivec2(gl_GlobalInvocationID.xy);
+    const ivec2 texel = tileTexel();
     if (any(greaterThanEqual(texel, ivec2(frame.size.xy)))) {
         return;
     }

@@ -6,17 +6,16 @@
 #define SLUICE_NARROW_RANGE_GLSL
 #include "frame.glsl"
 
-// How a pixel sees its neighbours. 0 is the reciprocal of an empty texel.
+// How a pixel sees its neighbours. Depths are metres, 1e30 = empty.
 struct Range {
-    float nearest;   // beyond this reciprocal a sample is another surface in front: it is left out, and its mirror sample
-    float farthest;  // below this one it is another surface behind: it counts as `clamped`
+    float nearest;   // nearer than this is another surface in front: it is left out, and its mirror sample
+    float farthest;  // farther is another surface behind: it counts as `clamped`, which is a reciprocal
     float clamped;
 };
 
 Range rangeOf(float depth) {
     const float delta = frame.filter_widths.x;
-    return Range(depth > delta ? 1.0 / (depth - delta) : EMPTY_DEPTH, 1.0 / (depth + delta),
-                 1.0 / (depth + frame.filter_widths.y));
+    return Range(max(depth - delta, 0.0), depth + delta, 1.0 / (depth + frame.filter_widths.y));
 }
 
 // Standard deviation in pixels: constant in the world, and a third of the cap at most, so that the kernel that the cap cuts
@@ -28,9 +27,8 @@ int halfWidth(float sigma) { return int(min(ceil(3.0 * sigma), frame.filter_widt
 
 // Adds a sample and its mirror image, or neither: one-sided windows would pull the surface towards the kept side.
 void addPair(Range range, float a, float b, float weight, inout float sum, inout float weights) {
-    const bool kept = a > 0.0 && b > 0.0 && a <= range.nearest && b <= range.nearest;
-    const float w = kept ? weight : 0.0;
-    sum += w * ((a < range.farthest ? range.clamped : a) + (b < range.farthest ? range.clamped : b));
+    const float w = min(a, b) >= range.nearest && !isEmpty(max(a, b)) ? weight : 0.0;
+    sum += w * ((a > range.farthest ? range.clamped : 1.0 / a) + (b > range.farthest ? range.clamped : 1.0 / b));
     weights += 2.0 * w;
 }
 

@@ -12,4 +12,5 @@ sluice_add_test(renderer_vk_pass_test
     pass_shade_test.cpp
     pass_splat_test.cpp
     pass_surface_test.cpp
+    pass_tiles_test.cpp
     LIBS sluice_pass_rig)

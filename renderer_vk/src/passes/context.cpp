@@ -31,18 +31,19 @@ void openImages(const PassContext& context) {
         // The last frame's accesses of these images were all by compute or by the splat itself.
         barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
         barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
-        barrier.dstStageMask =
-            drawn ? VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT : VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+        // Those that are not drawn into are cleared before they are written.
+        barrier.dstStageMask = drawn ? VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT : VK_PIPELINE_STAGE_2_CLEAR_BIT;
         barrier.dstAccessMask = drawn ? VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT
-                                      : VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+                                      : VK_ACCESS_2_TRANSFER_WRITE_BIT;
         barriers.push_back(barrier);
     }
-    // nothing_to_write is bound in every frame, so that the frames' last dispatches are ordered among themselves.
+    // nothing_to_write is bound in every frame, so that the frames' last dispatches are ordered among themselves; the
+    // tile lists are reset by a copy after the last frame's dispatches have read them.
     auto memory = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    memory.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    memory.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
     memory.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    memory.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    memory.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    memory.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
+    memory.dstAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
     auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &memory;
@@ -74,6 +75,10 @@ void betweenDispatches(const PassContext& context) {
     dependency.memoryBarrierCount = 1;
     dependency.pMemoryBarriers = &barrier;
     context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
+}
+
+void dispatchTiles(const PassContext& context, const Buffer& tiles) {
+    context.device.fn.vkCmdDispatchIndirect(context.commands, tiles.buffer(), 0);
 }
 
 void dispatchOver(const PassContext& context, std::uint32_t width, std::uint32_t height, std::uint32_t tile_x,

@@ -5,17 +5,23 @@
 #include <array>
 
 #include "frame/pass_context.hpp"
+#include "memory/buffer.hpp"
 #include "memory/image.hpp"
 #include "passes/arena.hpp"
 #include "plan/plan.hpp"
 
 namespace sluice::vk {
 
+/// Side of a tile, texels: TILE of tiles.glsl and the workgroup of every pass over tiles.
+inline constexpr std::uint32_t kTileTexels = 16;
+
 /// The renderer's own images, one copy: frames of one queue take turns. Those that the plan leaves out are empty.
 struct PassImages {
     std::array<Image, static_cast<std::size_t>(PlanImage::Count)> own;
     Image nothing_to_read;   ///< 1x1, stands in where a shader's input is switched off
     Image nothing_to_write;  ///< 1x1, stands in where a shader's output is switched off
+    Buffer surface_tiles;    ///< which tiles have fluid; see shaders/common/tiles.glsl
+    Buffer thickness_tiles;  ///< the same at the resolution of thickness, with a margin; empty without blur
 
     [[nodiscard]] const Image& operator[](PlanImage id) const { return own[static_cast<std::size_t>(id)]; }
     [[nodiscard]] VkImageView readable(PlanImage id) const {
@@ -45,6 +51,8 @@ void openImages(const PassContext& context);
 void closeAttachment(const PassContext& context, PlanImage id);
 /// Between dispatches: what was written is readable and may be overwritten.
 void betweenDispatches(const PassContext& context);
+/// A workgroup for each tile of the list.
+void dispatchTiles(const PassContext& context, const Buffer& tiles);
 /// Enough workgroups of `tile_x` x `tile_y` to cover `width` x `height`.
 void dispatchOver(const PassContext& context, std::uint32_t width, std::uint32_t height, std::uint32_t tile_x,
                   std::uint32_t tile_y);

@@ -10,30 +10,22 @@
 namespace sluice::vk {
 namespace {
 
-/// Texels of a workgroup. Rows are fetched whole in both directions, so that the tile of y is 8 wide as well.
-struct Tile {
-    std::uint32_t x, y;
-};
-constexpr Tile kTileX{64, 4};
-constexpr Tile kTileY{8, 32};
-constexpr std::uint32_t kTileClean = 16;
+constexpr std::array kBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                               VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
 
-constexpr std::array kBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-                               VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
-
-Result<Pipeline> linePipeline(const Device& device, const char* name, std::uint32_t along, Tile tile) {
-    const std::array<std::uint32_t, 3> constants{along, tile.x, tile.y};
+Result<Pipeline> linePipeline(const Device& device, const char* name, std::uint32_t along) {
+    const std::array<std::uint32_t, 1> constants{along};
     return createCompute(device, {name, filter_line_comp, kBindings, 0, constants});
 }
 
 }  // namespace
 
 Result<FilterPass> FilterPass::create(const Device& device) {
-    auto x = linePipeline(device, "filter_x", 0, kTileX);
+    auto x = linePipeline(device, "filter_x", 0);
     if (!x) {
         return x.error();
     }
-    auto y = linePipeline(device, "filter_y", 1, kTileY);
+    auto y = linePipeline(device, "filter_y", 1);
     if (!y) {
         return y.error();
     }
@@ -46,20 +38,21 @@ Result<FilterPass> FilterPass::create(const Device& device) {
 
 void FilterPass::record(const PassContext& context) const {
     const std::uint32_t dispatches = 2 * context.plan.filter_iterations + 1;
-    const auto step = [&](const Pipeline& pipeline, PlanImage from, PlanImage to, Tile tile) {
-        const std::array bindings{uniform(context.arena.constants()), sampled(context.images[from].view()),
-                                  storage(context.images[to].view())};
+    const auto step = [&](const Pipeline& pipeline, PlanImage from, PlanImage to) {
+        const Buffer& tiles = context.images.surface_tiles;
+        const std::array bindings{uniform(context.arena.constants()), readBuffer(tiles.buffer()),
+                                  sampled(context.images[from].view()), storage(context.images[to].view())};
         context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, bindings);
-        dispatchOver(context, context.plan.width, context.plan.height, tile.x, tile.y);
+        dispatchTiles(context, tiles);
         betweenDispatches(context);
     };
     context.timer.begin(context.commands,
                         {"filter", context.pixels(), context.pixels() * 8 * dispatches, false, dispatches});
     for (std::uint32_t iteration = 0; iteration < context.plan.filter_iterations; ++iteration) {
-        step(along_x, PlanImage::DepthA, PlanImage::DepthB, kTileX);
-        step(along_y, PlanImage::DepthB, PlanImage::DepthA, kTileY);
+        step(along_x, PlanImage::DepthA, PlanImage::DepthB);
+        step(along_y, PlanImage::DepthB, PlanImage::DepthA);
     }
-    step(clean, PlanImage::DepthA, PlanImage::DepthB, {kTileClean, kTileClean});
+    step(clean, PlanImage::DepthA, PlanImage::DepthB);
     context.timer.end(context.commands);
 }
 

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <optional>
 #include <span>
@@ -18,6 +19,7 @@
 #include "passes/shade.hpp"
 #include "passes/splat.hpp"
 #include "passes/surface.hpp"
+#include "passes/tiles.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::vk {
@@ -29,6 +31,7 @@ struct FluidRecorder::State {
     std::vector<FrameArena> arenas;
     PassImages images;
     SplatDepthPass splat_depth;
+    TilesPass tiles;
     FilterPass filter;
     NormalsPass normals;
     SplatThicknessPass splat_thickness;
@@ -70,12 +73,20 @@ Result<Image> makePlaceholder(const Device& device) {
 Result<Image> makeOwn(const Device& device, const PlannedImage& planned) {
     const FormatInfo* format = findFormat(static_cast<std::uint32_t>(planned.format));
     assert(format != nullptr);
-    VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
+                              VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
     if (planned.id == PlanImage::DepthA || planned.id == PlanImage::Thickness) {
         usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     }
     return Image::create(device, {static_cast<VkFormat>(format->vk_format), planned.width, planned.height, usage, false,
                                   toString(planned.id).data()});
+}
+
+Result<Buffer> makeTileList(const Device& device, std::uint32_t width, std::uint32_t height) {
+    return Buffer::create(device, {tileListBytes(width, height),
+                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                   BufferPlace::Device, "tile list"});
 }
 
 Result<Image> makeEnvironment(const Device& device, const SluiceEnvironment& environment) {
@@ -126,8 +137,8 @@ Result<FluidRecorder> FluidRecorder::create(const Device& device) {
     for (const Status& status :
          {take(makePlaceholder(device), state->images.nothing_to_read),
           take(makePlaceholder(device), state->images.nothing_to_write),
-          take(SplatDepthPass::create(device), state->splat_depth), take(FilterPass::create(device), state->filter),
-          take(NormalsPass::create(device), state->normals),
+          take(SplatDepthPass::create(device), state->splat_depth), take(TilesPass::create(device), state->tiles),
+          take(FilterPass::create(device), state->filter), take(NormalsPass::create(device), state->normals),
           take(SplatThicknessPass::create(device), state->splat_thickness),
           take(BlurThicknessPass::create(device), state->blur_thickness), take(EchoPass::create(device), state->echo),
           take(ClearPass::create(device), state->clear)}) {
@@ -156,7 +167,16 @@ Status FluidRecorder::prepare(const Plan& plan) {
             }
             made.emplace_back(planned.id, std::move(image).value());
         }
+        // Both lists have room for every tile of the full resolution, the larger of the two.
+        std::array<Buffer, 2> lists;
+        for (Buffer& list : lists) {
+            if (Status status = take(makeTileList(state_->device, plan.width, plan.height), list); !status) {
+                return status;
+            }
+        }
         state_->device.fn.vkDeviceWaitIdle(state_->device.handle);
+        state_->images.surface_tiles = std::move(lists[0]);
+        state_->images.thickness_tiles = std::move(lists[1]);
         for (std::size_t index = 0; index < state_->images.own.size(); ++index) {
             if (static_cast<PlanImage>(index) != PlanImage::Environment) {
                 state_->images.own[index] = Image();
@@ -201,6 +221,9 @@ void FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, c
         switch (pass.id) {
             case PassId::SplatDepth:
                 state_->splat_depth.record(context);
+                break;
+            case PassId::Tiles:
+                state_->tiles.record(context);
                 break;
             case PassId::Filter:
                 state_->filter.record(context);

@@ -9,8 +9,6 @@
 namespace sluice::vk {
 namespace {
 
-constexpr std::uint32_t kTile = 16;
-
 bool wanted(const Plan& plan, SluiceImageRole role) {
     return (plan.outputs & SLUICE_ROLE_BIT(role)) != 0;
 }
@@ -36,6 +34,7 @@ Status ShadePass::prepare(const Device& device, const Plan& plan) {
     constexpr VkDescriptorType kSampled = VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     constexpr VkDescriptorType kStorage = VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
     constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                   kSampled,
                                   kSampled,
                                   kSampled,
@@ -71,6 +70,7 @@ void ShadePass::record(const PassContext& context) const {
         context.plan.environment_map ? images.readable(PlanImage::Environment) : images.nothing_to_read.view();
     const VkImageView colour = context.plan.refraction ? targets.host_colour.view : images.nothing_to_read.view();
     const std::array bindings{uniform(context.arena.constants()),
+                              readBuffer(images.surface_tiles.buffer()),
                               sampled(images[context.plan.surface].view()),
                               sampled(targets.host_depth.view),
                               sampled(images.readable(PlanImage::Normal)),
@@ -90,7 +90,7 @@ void ShadePass::record(const PassContext& context) const {
         {"shade", context.pixels(),
          context.pixels() * bytes_per_pixel + std::uint64_t{thickness.width()} * thickness.height() * 4, false, 1});
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, found->second, bindings);
-    dispatchOver(context, context.plan.width, context.plan.height, kTile, kTile);
+    dispatchTiles(context, images.surface_tiles);
     context.timer.end(context.commands);
 }
 

@@ -13,5 +13,6 @@ list(APPEND SLUICE_VK_SOURCES
     src/passes/shade.cpp
     src/passes/splat.cpp
     src/passes/surface.cpp
+    src/passes/tiles.cpp
 )
 list(APPEND SLUICE_VK_LIBS sluice_shaders)

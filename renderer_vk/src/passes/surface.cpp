@@ -10,11 +10,10 @@
 namespace sluice::vk {
 namespace {
 
-constexpr std::uint32_t kTile = 16;
-
 Result<Pipeline> blurPipeline(const Device& device, const char* name, std::uint32_t along) {
-    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-                                  VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                  VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
+                                  VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     const std::array<std::uint32_t, 1> constants{along};
     return createCompute(device, {name, blur_thickness_comp, bindings, 0, constants});
 }
@@ -22,8 +21,8 @@ Result<Pipeline> blurPipeline(const Device& device, const char* name, std::uint3
 }  // namespace
 
 Result<NormalsPass> NormalsPass::create(const Device& device) {
-    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE,
-                                  VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                  VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
     auto pipeline = createCompute(device, {"normals", normals_comp, bindings, 0, {}});
     if (!pipeline) {
         return pipeline.error();
@@ -33,10 +32,12 @@ Result<NormalsPass> NormalsPass::create(const Device& device) {
 
 void NormalsPass::record(const PassContext& context) const {
     context.timer.begin(context.commands, {"normals", context.pixels(), context.pixels() * (4 + 8), false, 1});
-    const std::array bindings{uniform(context.arena.constants()), sampled(context.images[context.plan.surface].view()),
+    const Buffer& tiles = context.images.surface_tiles;
+    const std::array bindings{uniform(context.arena.constants()), readBuffer(tiles.buffer()),
+                              sampled(context.images[context.plan.surface].view()),
                               storage(context.images[PlanImage::Normal].view())};
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, bindings);
-    dispatchOver(context, context.plan.width, context.plan.height, kTile, kTile);
+    dispatchTiles(context, tiles);
     context.timer.end(context.commands);
     betweenDispatches(context);
 }
@@ -57,11 +58,12 @@ void BlurThicknessPass::record(const PassContext& context) const {
     const Image& image = context.images[PlanImage::Thickness];
     const std::uint64_t texels = std::uint64_t{image.width()} * image.height();
     const auto step = [&](const Pipeline& pipeline, PlanImage from, PlanImage to) {
-        const std::array bindings{uniform(context.arena.constants()), sampled(context.images[from].view()),
-                                  sampled(context.images[context.plan.surface].view()),
-                                  storage(context.images[to].view())};
+        const Buffer& tiles = context.images.thickness_tiles;
+        const std::array bindings{
+            uniform(context.arena.constants()), readBuffer(tiles.buffer()), sampled(context.images[from].view()),
+            sampled(context.images[context.plan.surface].view()), storage(context.images[to].view())};
         context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, bindings);
-        dispatchOver(context, image.width(), image.height(), kTile, kTile);
+        dispatchTiles(context, tiles);
         betweenDispatches(context);
     };
     context.timer.begin(context.commands, {"blur_thickness", texels, texels * (4 + 8 + 8 + 4), false, 2});

@@ -53,6 +53,8 @@ std::string_view toString(PassId pass) {
     switch (pass) {
         case PassId::SplatDepth:
             return "splat_depth";
+        case PassId::Tiles:
+            return "tiles";
         case PassId::Filter:
             return "filter";
         case PassId::Normals:
@@ -91,6 +93,10 @@ std::string_view toString(PlanImage image) {
             return "HOST_DEPTH";
         case PlanImage::Environment:
             return "environment";
+        case PlanImage::SurfaceTiles:
+            return "surface tiles";
+        case PlanImage::ThicknessTiles:
+            return "thickness tiles";
         case PlanImage::FluidColour:
             return "FLUID_COLOUR";
         case PlanImage::FluidDepth:

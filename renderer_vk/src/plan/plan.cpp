@@ -198,12 +198,13 @@ class Builder {
     void surface() {
         image(PlanImage::DepthA, SLUICE_FORMAT_R32F);
         keep(PassId::SplatDepth, {}, {PlanImage::DepthA}, 1, "every view of the fluid needs its depth");
+        tiles();
         if (wants_.filter) {
             plan_.filter_iterations = needs_.fluid.filter_iterations;
             image(PlanImage::DepthB, SLUICE_FORMAT_R32F);
             // Each iteration is x then y, so that the depth is back in DepthA; the clean-up moves it to DepthB.
             plan_.surface = PlanImage::DepthB;
-            keep(PassId::Filter, {PlanImage::DepthA}, {PlanImage::DepthA, PlanImage::DepthB},
+            keep(PassId::Filter, {PlanImage::DepthA, PlanImage::SurfaceTiles}, {PlanImage::DepthA, PlanImage::DepthB},
                  2 * plan_.filter_iterations + 1,
                  fmt::format("narrow-range, {} x (x, y), then a 2-D clean-up", plan_.filter_iterations));
         } else {
@@ -211,13 +212,23 @@ class Builder {
         }
         if (wants_.normals) {
             image(PlanImage::Normal, SLUICE_FORMAT_RGBA16F);
-            keep(PassId::Normals, {plan_.surface}, {PlanImage::Normal}, 1,
+            keep(PassId::Normals, {plan_.surface, PlanImage::SurfaceTiles}, {PlanImage::Normal}, 1,
                  plan_.view == SLUICE_VIEW_FLUID    ? "shading needs normals"
                  : plan_.view == SLUICE_VIEW_NORMAL ? "the normal view shows them"
                                                     : "the host reads FLUID_NORMAL");
         } else {
             omit(PassId::Normals, "nothing that is shown or read needs normals");
         }
+    }
+
+    void tiles() {
+        std::vector<PlanImage> writes{PlanImage::SurfaceTiles};
+        if (wants_.blur) {
+            writes.push_back(PlanImage::ThicknessTiles);
+        }
+        const auto dispatches = static_cast<std::uint32_t>(writes.size());
+        keep(PassId::Tiles, {PlanImage::DepthA}, std::move(writes), dispatches,
+             "later passes run only where there is fluid");
     }
 
     void thickness() {
@@ -233,7 +244,7 @@ class Builder {
         keep(PassId::SplatThickness, {PlanImage::HostDepth}, {PlanImage::Thickness}, 1, thicknessReason(needs_));
         if (wants_.blur) {
             image(PlanImage::ThicknessSums, SLUICE_FORMAT_RG32F, divisor);
-            keep(PassId::BlurThickness, {PlanImage::Thickness, plan_.surface},
+            keep(PassId::BlurThickness, {PlanImage::Thickness, plan_.surface, PlanImage::ThicknessTiles},
                  {PlanImage::ThicknessSums, PlanImage::Thickness}, 2, "removes the grain of single particles");
         } else {
             omit(PassId::BlurThickness, "thickness_blur is 0");
@@ -241,7 +252,7 @@ class Builder {
     }
 
     void shade() {
-        std::vector<PlanImage> reads{plan_.surface, PlanImage::HostDepth};
+        std::vector<PlanImage> reads{plan_.surface, PlanImage::HostDepth, PlanImage::SurfaceTiles};
         if (wants_.normals) {
             reads.push_back(PlanImage::Normal);
         }

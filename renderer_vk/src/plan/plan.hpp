@@ -16,6 +16,7 @@ namespace sluice::vk {
 /// Every pass that there is, in the order in which a frame runs them.
 enum class PassId : std::uint8_t {
     SplatDepth,
+    Tiles,  ///< lists the tiles with fluid, and clears what the passes over tiles leave out
     Filter,
     Normals,
     SplatThickness,
@@ -26,8 +27,8 @@ enum class PassId : std::uint8_t {
     Count
 };
 
-/// Every image that a pass may read or write. Those from HostColour on are shared or uploaded, not allocated by the
-/// plan.
+/// Every image that a pass may read or write. Those from HostColour on are shared, uploaded or buffers, and
+/// none of these is allocated by the plan.
 enum class PlanImage : std::uint8_t {
     DepthA,         ///< R32F metres along -z; 1e30 = empty
     DepthB,         ///< the other half of the filter's ping-pong
@@ -37,6 +38,8 @@ enum class PlanImage : std::uint8_t {
     HostColour,
     HostDepth,
     Environment,
+    SurfaceTiles,    ///< a buffer: the list of tiles with fluid
+    ThicknessTiles,  ///< a buffer: the same for thickness, with the margin of its blur
     FluidColour,
     FluidDepth,
     FluidNormal,
@@ -89,7 +92,7 @@ struct Plan {
     bool operator==(const Plan&) const = default;
 };
 
-/// Most pixels that a filter's half-width may reach: bounds its shared memory and its loop iterations.
+/// Most pixels that a filter's half-width may reach: bounds its loop iterations.
 inline constexpr std::uint32_t kMaxFilterPixels = 128;
 /// Most filter iterations.
 inline constexpr std::uint32_t kMaxFilterIterations = 16;
