@@ -120,7 +120,8 @@ void emitBall(const Lattice& lattice, std::uint64_t seed, double time, const Emi
 }
 
 /// Drops leave the rim of the ball within kCrownDuration after the impact and fly freely until they are below the water
-/// again. As many as one in fifty of the target, which is about what a picture of such a splash shows; tuned by eye.
+/// again. As many as one in fifty of the target; chosen from
+/// pictures of the sample, nothing was measured.
 void emitCrown(const Lattice& lattice, std::uint64_t seed, double time, std::size_t target, const Emit& emit) {
     constexpr double kCrownDuration = 0.22;  // s
     constexpr double kRim = 0.85;            // of the ball's radius

@@ -1,4 +1,8 @@
 // SPDX-License-Identifier: MIT
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <array>
 #include <cerrno>
 #include <cstdio>
@@ -26,27 +30,70 @@ Error unreadable(const std::string& name, int code) {
             "check the path and its permissions"};
 }
 
-/// Grows with what is read: the size that a file system claims is not trusted either (pipes, /proc).
-Result<std::vector<std::byte>> readFile(const std::filesystem::path& path, const std::string& name) {
-    const std::unique_ptr<std::FILE, Close> file(std::fopen(path.c_str(), "rb"));
-    if (!file) {
+Error tooLarge(const std::string& name, std::uint64_t bytes) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, name,
+            fmt::format("expected at most {} bytes, found {}{}", kMaxFileBytes,
+                        bytes > kMaxFileBytes ? "" : "more than ", bytes),
+            "split the set"};
+}
+
+/// A pipe or a device could block or never end, so only a regular file (or a link to one) is opened for good.
+/// Without O_NONBLOCK, opening a pipe that nobody writes to would wait before it can be looked at.
+Result<std::unique_ptr<std::FILE, Close>> openFile(const std::filesystem::path& path, const std::string& name,
+                                                   std::uint64_t& size) {
+    const int fd = open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (fd < 0) {
         return unreadable(name, errno);
     }
-    std::vector<std::byte> bytes;
-    std::error_code ignored;
-    if (const auto size = std::filesystem::file_size(path, ignored); !ignored) {
-        bytes.reserve(size);
+    std::unique_ptr<std::FILE, Close> file(fdopen(fd, "rb"));
+    if (!file) {
+        const int code = errno;
+        close(fd);
+        return unreadable(name, code);
     }
+    struct stat info {};
+    if (fstat(fd, &info) != 0) {
+        return unreadable(name, errno);
+    }
+    if (S_ISDIR(info.st_mode)) {
+        return unreadable(name, EISDIR);
+    }
+    if (!S_ISREG(info.st_mode)) {
+        return Error{
+            SLUICE_ERROR_INVALID_ARGUMENT, name,
+            fmt::format("expected a regular file, found a {}", S_ISFIFO(info.st_mode) ? "pipe" : "device or socket"),
+            "write the particles to a file first"};
+    }
+    size = static_cast<std::uint64_t>(info.st_size);
+    if (size > kMaxFileBytes) {
+        return tooLarge(name, size);
+    }
+    return file;
+}
+
+/// Grows with what is read: the size that a file system claims is not trusted either (/proc, a file that is still
+/// being written).
+Result<std::vector<std::byte>> readFile(const std::filesystem::path& path, const std::string& name) {
+    std::uint64_t size = 0;
+    const Result<std::unique_ptr<std::FILE, Close>> file = openFile(path, name, size);
+    if (!file) {
+        return file.error();
+    }
+    std::vector<std::byte> bytes;
+    bytes.reserve(size);
     std::array<std::byte, std::size_t{64} << 10U> chunk;
     while (true) {
         errno = 0;
-        const std::size_t got = std::fread(chunk.data(), 1, chunk.size(), file.get());
+        const std::size_t got = std::fread(chunk.data(), 1, chunk.size(), file.value().get());
         bytes.insert(bytes.end(), chunk.begin(), chunk.begin() + static_cast<std::ptrdiff_t>(got));
         if (got < chunk.size()) {
             break;
         }
+        if (bytes.size() > kMaxFileBytes) {
+            return tooLarge(name, kMaxFileBytes);
+        }
     }
-    if (std::ferror(file.get()) != 0) {
+    if (std::ferror(file.value().get()) != 0) {
         return unreadable(name, errno);
     }
     return bytes;

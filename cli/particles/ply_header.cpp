@@ -68,6 +68,10 @@ Status parseElement(Header& header, std::string_view rest, const std::string& na
         return failure(name, atLine(line), "'element NAME COUNT'",
                        fmt::format("element {} {}", printable(element), printable(count)));
     }
+    if (header.elements.size() == kMaxElements) {
+        return failure(name, atLine(line), fmt::format("at most {} elements", kMaxElements), "one more",
+                       "export the particles alone");
+    }
     if (std::ranges::find(header.elements, element, &Element::name) != header.elements.end()) {
         return failure(name, atLine(line), "each element once", fmt::format("{} again", printable(element)));
     }
@@ -103,6 +107,10 @@ Status parseProperty(Header& header, std::string_view rest, const std::string& n
         return failure(name, atLine(line), "one name after the type of a property", printable(property.name));
     }
     std::vector<Property>& all = header.elements.back().properties;
+    if (all.size() == kMaxProperties) {
+        return failure(name, atLine(line), fmt::format("at most {} properties of an element", kMaxProperties),
+                       "one more", "export the particles alone");
+    }
     if (std::ranges::find(all, property.name, &Property::name) != all.end()) {
         return failure(name, atLine(line), "each property once", fmt::format("{} again", printable(property.name)));
     }

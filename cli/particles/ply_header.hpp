@@ -33,6 +33,11 @@ struct Element {
     std::vector<Property> properties;
 };
 
+/// A header may declare this many elements, and each of them this many properties. Real files have a few dozen; each
+/// name is compared with those before it, so that without a limit the time would grow with the square of the header.
+inline constexpr std::size_t kMaxElements = 256;
+inline constexpr std::size_t kMaxProperties = 256;
+
 struct Header {
     bool binary = false;  ///< binary little-endian; else ascii
     std::vector<Element> elements;

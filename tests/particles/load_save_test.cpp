@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <sys/stat.h>
+
 #include "files.hpp"
 
 namespace sluice::particles::test {
@@ -114,6 +116,33 @@ TEST(Load, FolderTellsErrno) {
     const Result<ParticleSet> set = load(folder / "a.ply");
     ASSERT_FALSE(set.ok());
     EXPECT_THAT(set.error().message(), HasSubstr("cannot be read: Is a directory"));
+}
+
+TEST(Load, APipeIsRefusedWithoutWaitingForIt) {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder / "a.pos";
+    ASSERT_EQ(mkfifo(path.c_str(), 0600), 0);
+    const Result<ParticleSet> set = load(path);
+    ASSERT_FALSE(set.ok());
+    EXPECT_THAT(set.error().message(), HasSubstr(path.string()));
+    EXPECT_THAT(set.error().message(), HasSubstr("expected a regular file, found a pipe"));
+}
+
+TEST(Load, ADeviceIsRefused) {
+    const TemporaryFolder folder;
+    std::filesystem::create_symlink("/dev/zero", folder / "a.pos");
+    const Result<ParticleSet> set = load(folder / "a.pos");
+    ASSERT_FALSE(set.ok());
+    EXPECT_THAT(set.error().message(), HasSubstr("expected a regular file, found a device"));
+}
+
+TEST(Load, ATooLargeFileIsRefusedUnread) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(save(folder / "a.pos", someSet()).ok());
+    std::filesystem::resize_file(folder / "a.pos", kMaxFileBytes + 1);  // sparse: takes no room
+    const Result<ParticleSet> set = load(folder / "a.pos");
+    ASSERT_FALSE(set.ok());
+    EXPECT_THAT(set.error().message(), HasSubstr("expected at most 17179869184 bytes, found 17179869185"));
 }
 
 TEST(Load, UnknownEndingNamesTheKnownOnes) {

@@ -30,6 +30,15 @@ std::string xyzAnd(std::string_view more, std::string_view count = "1") {
     return std::string("element vertex ").append(count).append("\n").append(kXyz).append(more);
 }
 
+/// `count` lines of "WORDS<number>AFTER".
+std::string lines(int count, const std::string& words, const std::string& after) {
+    std::string all;
+    for (int i = 0; i < count; ++i) {
+        all += words + std::to_string(i) + after + "\n";
+    }
+    return all;
+}
+
 using namespace std::string_view_literals;
 
 INSTANTIATE_TEST_SUITE_P(
@@ -53,6 +62,13 @@ INSTANTIATE_TEST_SUITE_P(
         Malformed{"NoVertexElement",
                   ascii("element face 0\nproperty float x\n", ""),
                   {"at line 5", "an element 'vertex'", "found none"}},
+        // Line 3 declares vertex, 4 to 6 its x y z, 7 to 259 another 253 properties.
+        Malformed{"TooManyProperties",
+                  ascii(xyzAnd(lines(150'000, "property float p", "")), "0 0 0\n"),
+                  {"at line 260", "at most 256 properties of an element", "one more", "export the particles alone"}},
+        Malformed{"TooManyElements",
+                  ascii(lines(150'000, "element e", " 0"), ""),
+                  {"at line 259", "at most 256 elements", "one more", "export the particles alone"}},
         Malformed{"NegativeCount", vertices("-1", ""), {"at line 3", "'element NAME COUNT'", "'-1'"}},
         Malformed{"CountNotANumber", vertices("many", ""), {"at line 3", "'element NAME COUNT'", "'many'"}},
         Malformed{"CountBeyond64Bits", vertices("99999999999999999999", ""), {"at line 3", "'99999999999999999999'"}},

@@ -25,6 +25,8 @@ struct ParticleSet {
 
 /// No format may claim more than this many particles: 256 Mi.
 inline constexpr std::uint64_t kMaxParticles = 1ULL << 28;
+/// No file may be larger: 16 GiB.
+inline constexpr std::uint64_t kMaxFileBytes = 1ULL << 34;
 
 /// Pure parsers. `name` is used in messages only. An Error names the file, the byte offset (or line), what was expected
 /// and what was found; its code is SLUICE_ERROR_INVALID_ARGUMENT. Memory use is bounded by the size of `bytes` (for
@@ -33,7 +35,8 @@ inline constexpr std::uint64_t kMaxParticles = 1ULL << 28;
 [[nodiscard]] Result<ParticleSet> parsePly(std::span<const std::byte> bytes, const std::string& name);
 [[nodiscard]] Result<ParticleSet> parseBgeo(std::span<const std::byte> bytes, const std::string& name);
 
-/// Reads a file and parses it by its ending (.pos, .ply, .bgeo, .bgeo.gz). A particle set without a radius gets
+/// Reads a regular file and parses it by its ending (.pos, .ply, .bgeo, .bgeo.gz); anything else, such as a pipe, is
+/// refused without waiting for it. A particle set without a radius gets
 /// `default_radius`; if that is 0 too, it is an error that tells how to give one.
 [[nodiscard]] Result<ParticleSet> load(const std::filesystem::path& path, float default_radius = 0.0F);
 

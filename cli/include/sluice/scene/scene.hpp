@@ -30,7 +30,7 @@ struct Size {
 };
 
 /// Largest width or height, as SluiceCreateInfo has it.
-inline constexpr std::uint32_t kMaxSize = 16384;
+inline constexpr std::uint32_t kMaxSize = SLUICE_MAX_EXTENT;
 inline constexpr std::int64_t kMaxFrame = 1'000'000'000;
 
 /// A particle file or numbered sequence; world position = scale * file position + translate.
