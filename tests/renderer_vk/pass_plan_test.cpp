@@ -81,8 +81,8 @@ RC_GTEST_PROP(PassPlan, EveryImageIsWrittenAndReadAndEveryUsedImageIsAllocated, 
         read.insert(pass.reads.begin(), pass.reads.end());
         written.insert(pass.writes.begin(), pass.writes.end());
     }
-    // Sums of the blur are read by the same pass that writes them.
-    read.insert(PlanImage::ThicknessSums);
+    // Sums of the blur and the reduced scene are read by the same pass that writes them.
+    read.insert({PlanImage::ThicknessSums, PlanImage::SceneDepth});
     for (const PlannedImage& image : plan.images) {
         RC_ASSERT(read.contains(image.id) && written.contains(image.id));
         RC_ASSERT(image.width > 0 && image.height > 0 && !shared(image.id));

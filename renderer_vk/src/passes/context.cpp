@@ -19,6 +19,18 @@ VkImageMemoryBarrier2 barrierOf(const Image& image, VkImageLayout from, VkImageL
     return barrier;
 }
 
+void afterDispatch(const PassContext& context, VkPipelineStageFlags2 stage, VkAccessFlags2 access) {
+    auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
+    barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
+    barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
+    barrier.dstStageMask = stage;
+    barrier.dstAccessMask = access;
+    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
+}
+
 }  // namespace
 
 void openImages(const PassContext& context) {
@@ -28,8 +40,9 @@ void openImages(const PassContext& context) {
         VkImageMemoryBarrier2 barrier =
             barrierOf(context.images[planned.id], VK_IMAGE_LAYOUT_UNDEFINED,
                       drawn ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL);
-        // The last frame's accesses of these images were all by compute or by the splat itself.
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
+        // The last frame's accesses of these images were all by compute or by the splats.
+        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT |
+                               VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT;
         barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT;
         // Those that are not drawn into are cleared before they are written.
         barrier.dstStageMask = drawn ? VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT : VK_PIPELINE_STAGE_2_CLEAR_BIT;
@@ -66,15 +79,12 @@ void closeAttachment(const PassContext& context, PlanImage id) {
 }
 
 void betweenDispatches(const PassContext& context) {
-    auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    barrier.dstStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    barrier.dstAccessMask = VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
+    afterDispatch(context, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                  VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+}
+
+void beforeFragments(const PassContext& context) {
+    afterDispatch(context, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
 }
 
 void dispatchTiles(const PassContext& context, const Buffer& tiles) {

@@ -21,7 +21,7 @@ struct PassImages {
     Image nothing_to_read;   ///< 1x1, stands in where a shader's input is switched off
     Image nothing_to_write;  ///< 1x1, stands in where a shader's output is switched off
     Buffer surface_tiles;    ///< which tiles have fluid; see shaders/common/tiles.glsl
-    Buffer thickness_tiles;  ///< the same at the resolution of thickness, with a margin; empty without blur
+    Buffer thickness_tiles;  ///< the same at the resolution of thickness, with the margin of its blur
 
     [[nodiscard]] const Image& operator[](PlanImage id) const { return own[static_cast<std::size_t>(id)]; }
     [[nodiscard]] VkImageView readable(PlanImage id) const {
@@ -51,6 +51,8 @@ void openImages(const PassContext& context);
 void closeAttachment(const PassContext& context, PlanImage id);
 /// Between dispatches: what was written is readable and may be overwritten.
 void betweenDispatches(const PassContext& context);
+/// After a dispatch: what it wrote is readable by fragments.
+void beforeFragments(const PassContext& context);
 /// A workgroup for each tile of the list.
 void dispatchTiles(const PassContext& context, const Buffer& tiles);
 /// Enough workgroups of `tile_x` x `tile_y` to cover `width` x `height`.

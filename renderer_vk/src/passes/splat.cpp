@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "passes/splat.hpp"
 
+#include <shaders/scene_depth_comp.h>
 #include <shaders/splat_depth_frag.h>
 #include <shaders/splat_thickness_frag.h>
 #include <shaders/splat_vert.h>
@@ -110,7 +111,13 @@ Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device) {
     if (!large) {
         return large.error();
     }
-    return SplatThicknessPass{std::move(small).value(), std::move(large).value()};
+    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                  VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
+    auto scene = createCompute(device, {"scene_depth", scene_depth_comp, bindings, 0, {}});
+    if (!scene) {
+        return scene.error();
+    }
+    return SplatThicknessPass{std::move(small).value(), std::move(large).value(), std::move(scene).value()};
 }
 
 void SplatThicknessPass::record(const PassContext& context) const {
@@ -121,9 +128,15 @@ void SplatThicknessPass::record(const PassContext& context) const {
     context.timer.begin(
         context.commands,
         {"splat_thickness", count,
-         count * 12 + context.pixels() * 4 + std::uint64_t{image.width()} * image.height() * 4, true, 1});
+         count * 12 + context.pixels() * 4 + std::uint64_t{image.width()} * image.height() * 12, true, 2});
+    const std::array scene_bindings{
+        uniform(context.arena.constants()), readBuffer(context.images.thickness_tiles.buffer()),
+        sampled(context.targets.host_depth.view), storage(context.images[PlanImage::SceneDepth].view())};
+    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, scene, scene_bindings);
+    dispatchTiles(context, context.images.thickness_tiles);
+    beforeFragments(context);
     const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position),
-                              sampled(context.targets.host_depth.view)};
+                              sampled(context.images[PlanImage::SceneDepth].view())};
     draw(context, {PlanImage::Thickness, 0.0F}, use_large ? large : small, use_large ? 6 : 3, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::Thickness);

@@ -18,6 +18,7 @@ struct SplatThicknessPass {
     static Result<SplatThicknessPass> create(const Device& device);
     void record(const PassContext& context) const;
     Pipeline small, large;
+    Pipeline scene;  ///< the scene's depth at the resolution of thickness
 };
 
 }  // namespace sluice::vk

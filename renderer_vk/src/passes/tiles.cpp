@@ -41,6 +41,7 @@ void clearOutside(const PassContext& context) {
     clear(context, context.images[PlanImage::DepthB].image(), 1e30F);
     clear(context, context.images[PlanImage::Normal].image(), 0.0F);
     clear(context, context.images[PlanImage::ThicknessSums].image(), 0.0F);
+    clear(context, context.images[PlanImage::SceneDepth].image(), 1e30F);
     clear(context, context.targets.fluid_colour.image, 0.0F);
     clear(context, context.targets.fluid_depth.image, 1.0F);
     clear(context, context.targets.fluid_normal.image, 0.0F);
@@ -78,11 +79,11 @@ Result<TilesPass> TilesPass::create(const Device& device) {
 
 void TilesPass::record(const PassContext& context) const {
     const Device& device = context.device;
-    const bool blurs = findImage(context.plan, PlanImage::ThicknessSums) != nullptr;
-    context.timer.begin(context.commands, {"tiles", context.pixels(), context.pixels() * 4, false, blurs ? 2U : 1U});
+    const bool thick = findImage(context.plan, PlanImage::Thickness) != nullptr;
+    context.timer.begin(context.commands, {"tiles", context.pixels(), context.pixels() * 4, false, thick ? 2U : 1U});
     constexpr std::array<std::uint32_t, 4> kNone{0, 1, 1, 0};
     device.fn.vkCmdUpdateBuffer(context.commands, context.images.surface_tiles.buffer(), 0, sizeof kNone, kNone.data());
-    if (blurs) {
+    if (thick) {
         device.fn.vkCmdUpdateBuffer(context.commands, context.images.thickness_tiles.buffer(), 0, sizeof kNone,
                                     kNone.data());
     }
@@ -102,7 +103,7 @@ void TilesPass::record(const PassContext& context) const {
         dispatchOver(context, push.count_x * push.count_y, 1, kInvocations, 1);
     };
     list(context.images.surface_tiles, context.plan.width, context.plan.height, 1, 0);
-    if (blurs) {
+    if (thick) {
         const Image& thickness = context.images[PlanImage::Thickness];
         const auto scale = static_cast<std::uint32_t>(std::lround(1.0F / context.frame.fluid.thickness_scale));
         list(context.images.thickness_tiles, thickness.width(), thickness.height(), scale, kThicknessMargin);

@@ -87,6 +87,8 @@ std::string_view toString(PlanImage image) {
             return "thickness";
         case PlanImage::ThicknessSums:
             return "thickness sums";
+        case PlanImage::SceneDepth:
+            return "scene depth";
         case PlanImage::HostColour:
             return "HOST_COLOUR";
         case PlanImage::HostDepth:

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <span>
 
+#include "sluice/roles.hpp"
+
 namespace sluice::vk {
 namespace {
 
@@ -54,9 +56,10 @@ Status checkNumbers(const SluiceFluid& fluid) {
 }
 
 Status check(const SluiceSceneNeeds& needs) {
-    const auto sizeOk = [](std::uint32_t size) { return size >= 1 && size <= 16384; };
+    const auto sizeOk = [](std::uint32_t size) { return size >= 1 && size <= SLUICE_MAX_EXTENT; };
     if (!sizeOk(needs.width) || !sizeOk(needs.height)) {
-        return outOfRange("width, height", fmt::format("{}x{}", needs.width, needs.height), "1 to 16384 each");
+        return outOfRange("width, height", fmt::format("{}x{}", needs.width, needs.height),
+                          fmt::format("1 to {} each", SLUICE_MAX_EXTENT));
     }
     if (needs.fluid.view > SLUICE_VIEW_ECHO) {
         return outOfRange("fluid.view", fmt::format("{}", needs.fluid.view), "a SluiceView");
@@ -150,8 +153,7 @@ class Builder {
             return single(PassId::Echo, {PlanImage::HostColour, PlanImage::HostDepth}, "the echo view is asked for",
                           "the echo view shows no fluid");
         }
-        plan_.outputs = needs_.outputs &
-                        (SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS));
+        plan_.outputs = needs_.outputs & kOptionalFluidRoles;
         if (needs_.particle_count == 0) {
             return single(PassId::Clear, {}, "there are no particles", "there are no particles");
         }
@@ -223,7 +225,7 @@ class Builder {
 
     void tiles() {
         std::vector<PlanImage> writes{PlanImage::SurfaceTiles};
-        if (wants_.blur) {
+        if (wants_.thickness) {
             writes.push_back(PlanImage::ThicknessTiles);
         }
         const auto dispatches = static_cast<std::uint32_t>(writes.size());
@@ -241,7 +243,9 @@ class Builder {
         }
         const auto divisor = static_cast<std::uint32_t>(std::lround(1.0F / needs_.fluid.thickness_scale));
         image(PlanImage::Thickness, SLUICE_FORMAT_R32F, divisor);
-        keep(PassId::SplatThickness, {PlanImage::HostDepth}, {PlanImage::Thickness}, 1, thicknessReason(needs_));
+        image(PlanImage::SceneDepth, SLUICE_FORMAT_R32F, divisor);
+        keep(PassId::SplatThickness, {PlanImage::HostDepth, PlanImage::ThicknessTiles},
+             {PlanImage::SceneDepth, PlanImage::Thickness}, 2, thicknessReason(needs_));
         if (wants_.blur) {
             image(PlanImage::ThicknessSums, SLUICE_FORMAT_RG32F, divisor);
             keep(PassId::BlurThickness, {PlanImage::Thickness, plan_.surface, PlanImage::ThicknessTiles},

@@ -35,6 +35,7 @@ enum class PlanImage : std::uint8_t {
     Normal,         ///< RGBA16F eye-space unit normal, w = 1 on fluid
     Thickness,      ///< R32F metres along the view ray, reduced resolution
     ThicknessSums,  ///< RG32F weighted sum and weight between the two directions of the blur
+    SceneDepth,     ///< R32F farthest scene depth in each texel of Thickness, metres; 1e30 = nothing
     HostColour,
     HostDepth,
     Environment,
