@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "pass_rig.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/packing.hpp>
@@ -182,7 +183,7 @@ RigResult PassRig::render(const RigScene& scene) {
         result.failure = particles.error().message();
         return result;
     }
-    std::memcpy(particles.value().mapped().data(), scene.positions.data(), scene.positions.size() * sizeof(float));
+    std::ranges::copy(std::as_bytes(std::span(scene.positions)), particles.value().mapped().begin());
 
     SluiceFrame frame{};
     frame.struct_size = sizeof frame;
