@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <new>
 #include <string>
 
 #include "app/commands.hpp"
@@ -18,19 +19,22 @@ constexpr const char* kExitCodes =
     "  0    done\n"
     "  1    the command line is wrong\n"
     "  2    an input file is missing or wrong; no output was written for it\n"
-    "  3    the renderer is missing or failed, or nothing can be shared here;\n"
-    "       the host's own frames were still written, without fluid\n"
-    "  4    no OpenGL, an output that cannot be written, or an internal fault\n"
+    "  3    the renderer is missing or failed, or nothing can be shared here: the\n"
+    "       host's own frames were still written, without fluid; or --validation\n"
+    "       had something to say\n"
+    "  4    no OpenGL, not enough memory, an output that cannot be written, or an\n"
+    "       internal fault\n"
     "  130  interrupted; the file in hand was finished\n";
 
 constexpr const char* kExamples =
     "Examples:\n"
     "  sluice generate pool --particles 100000 -o pool.pos\n"
-    "  sluice render samples/pool.json --particles pool.pos -o pool.png\n"
+    "  sluice render samples/still.json --particles pool.pos -o pool.png\n"
+    "  sluice generate pool --frames 1..60 -o samples/particles/pool_####.pos\n"
     "  sluice render samples/courtyard.json -o out_####.png --frames 1..60 \\\n"
     "      --layers out_####.exr --trace out.json\n"
     "  sluice probe\n"
-    "  sluice explain samples/pool.json --particles pool.pos\n";
+    "  sluice explain samples/still.json --particles pool.pos\n";
 
 /// Turns a Result-parser into the callback of an option; a bad value becomes a usage error.
 template <typename T, typename Parse>
@@ -85,7 +89,7 @@ void addRender(Line& line) {
         ->type_name("WxH");
     c.add_option("--particles", o.particles, "Particle file or numbered sequence instead of the scene's")
         ->type_name("FILE");
-    c.add_option("--layers", o.layers, "EXR with every layer: beauty, host, fluid, normal, thickness")
+    c.add_option("--layers", o.layers, "EXR with every layer: beauty, host, fluid, normal, thickness; numbered like -o")
         ->type_name("EXR");
     c.add_option("--trace", o.trace, "Chrome trace of every signal, wait and pass (opens in Perfetto)")
         ->type_name("JSON");
@@ -106,7 +110,7 @@ void addRender(Line& line) {
         ->transform(CLI::CheckedTransformer(kViewNames))
         ->type_name("VIEW");
     c.add_flag("--no-fluid", o.no_fluid, "The host's frame alone");
-    c.add_flag("--validation", o.validation, "Run under the Vulkan validation layer");
+    c.add_flag("--validation", o.validation, "Run under the Vulkan validation layer; exit code 3 if it speaks");
     addVerbosity(c, line);
     c.footer(std::string("A particle file may be .pos, .ply or .bgeo. Every input is checked before the first file is\n"
                          "written, and files appear whole or not at all.\n\n") +
@@ -189,6 +193,8 @@ int parseAndRun(int argc, const char* const* argv) {
 int runCommandLine(int argc, const char* const* argv) noexcept {
     try {
         return parseAndRun(argc, argv);
+    } catch (const std::bad_alloc&) {
+        (void)std::fputs("sluice: not enough memory (close other programs, or ask for less at once)\n", stderr);
     } catch (const std::exception& fault) {
         (void)std::fprintf(stderr, "sluice: internal fault: %s\n", fault.what());
     } catch (...) {

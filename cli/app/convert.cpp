@@ -4,13 +4,26 @@
 #include <cstdio>
 
 #include "app/commands.hpp"
+#include "app/file_roles.hpp"
 #include "app/log.hpp"
+#include "app/output_folders.hpp"
 #include "report/table.hpp"
 #include "sluice/particles/particles.hpp"
 
 namespace sluice::cli {
 
 int convert(const ConvertOptions& options) {
+    FileRoles roles;
+    roles.add("the input file", options.input);
+    if (const Status status = roles.check("the output file", options.output); !status) {
+        logError(status.error());
+        return kExitUsage;
+    }
+    OutputFolders folders;
+    if (const Status status = folders.prepare(options.output); !status) {
+        logError(status.error());
+        return kExitInternal;
+    }
     const Result<particles::ParticleSet> set = particles::load(options.input, options.radius);
     if (!set) {
         logError(set.error());

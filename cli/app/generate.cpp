@@ -8,6 +8,7 @@
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
+#include "app/output_folders.hpp"
 #include "app/outputs.hpp"
 #include "report/progress.hpp"
 #include "report/table.hpp"
@@ -44,6 +45,12 @@ int generate(const GenerateOptions& options) {
         return kExitUsage;
     }
     watchForInterrupt();
+    OutputFolders folders;
+    const Result<std::filesystem::path> first = outputPath(options.output, options.frames.first);
+    if (const Status status = first ? folders.prepare(first.value()) : Status{first.error()}; !status) {
+        logError(status.error());
+        return first ? kExitInternal : kExitUsage;
+    }
     const auto total = static_cast<std::uint64_t>(options.frames.count());
     {
         Progress progress(total, !options.quiet);
@@ -59,7 +66,10 @@ int generate(const GenerateOptions& options) {
                 return kExitUsage;
             }
             const Result<std::filesystem::path> path = outputPath(options.output, frame);
-            const Status saved = path ? particles::save(path.value(), set.value()) : Status{path.error()};
+            Status saved = path ? folders.prepare(path.value()) : Status{path.error()};
+            if (saved) {
+                saved = particles::save(path.value(), set.value());
+            }
             if (!saved) {
                 logError(saved.error());
                 return path ? kExitInternal : kExitUsage;

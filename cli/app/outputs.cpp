@@ -32,6 +32,14 @@ Status checkOutputs(const RenderOptions& options, scene::FrameRange frames) {
     return options.layers.empty() ? Status{} : checkPattern("--layers", options.layers, ".exr", frames);
 }
 
+std::string numberedPattern(const std::string& pattern, scene::FrameRange frames) {
+    if (frames.count() <= 1 || particles::Sequence{pattern}.numbered()) {
+        return pattern;
+    }
+    const std::filesystem::path path(pattern);
+    return (path.parent_path() / path.stem()).string() + "_%04d" + path.extension().string();
+}
+
 Result<std::filesystem::path> outputPath(const std::string& pattern, std::int64_t frame) {
     return particles::Sequence{pattern}.path(frame);
 }

@@ -20,13 +20,17 @@ std::vector<std::filesystem::path> pluginCandidates(const std::string& option, c
     return {folder / kPluginFile, (folder / "../lib/sluice" / kPluginFile).lexically_normal()};
 }
 
-Result<host::PluginLibrary> loadPlugin(const std::string& option) {
+std::vector<std::filesystem::path> pluginPlaces(const std::string& option) {
     std::error_code ignored;
     const char* variable = std::getenv(kPluginVariable);
-    const auto candidates = pluginCandidates(option, variable == nullptr ? "" : variable,
-                                             std::filesystem::read_symlink("/proc/self/exe", ignored));
+    return pluginCandidates(option, variable == nullptr ? "" : variable,
+                            std::filesystem::read_symlink("/proc/self/exe", ignored));
+}
+
+Result<host::PluginLibrary> loadPlugin(const std::string& option) {
+    std::error_code ignored;
     std::string looked;
-    for (const std::filesystem::path& candidate : candidates) {
+    for (const std::filesystem::path& candidate : pluginPlaces(option)) {
         if (std::filesystem::exists(candidate, ignored)) {
             return host::PluginLibrary::load(candidate);
         }

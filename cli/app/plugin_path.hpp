@@ -20,6 +20,9 @@ inline constexpr const char* kPluginVariable = "SLUICE_PLUGIN";
                                                                   const std::string& variable,
                                                                   const std::filesystem::path& program);
 
+/// pluginCandidates of this process.
+[[nodiscard]] std::vector<std::filesystem::path> pluginPlaces(const std::string& option);
+
 /// Loads the first candidate that exists. The error names every place that was looked at.
 [[nodiscard]] Result<host::PluginLibrary> loadPlugin(const std::string& option);
 

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <new>
 
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
+#include "app/output_folders.hpp"
 #include "app/outputs.hpp"
+#include "app/render_files.hpp"
 #include "app/render_inputs.hpp"
 #include "app/render_session.hpp"
 #include "image/exr.hpp"
@@ -48,7 +52,10 @@ Status updateParticles(Run& run, std::int64_t frame) {
     if (path.value() == run.particle_file) {
         return {};
     }
-    const Result<particles::ParticleSet> set = loadParticles(run.inputs.scene.particles, path.value());
+    std::optional<LoadedParticles> first = std::exchange(run.inputs.first, std::nullopt);
+    const Result<particles::ParticleSet> set = first && first->path == path.value()
+                                                   ? Result<particles::ParticleSet>{std::move(first->set)}
+                                                   : loadParticles(run.inputs.scene.particles, path.value());
     if (!set) {
         return set.error();
     }
@@ -142,10 +149,54 @@ int renderFrames(Run& run) {
     return interrupted() ? kExitInterrupted : kExitOk;
 }
 
+void describeRenderer(Run& run) {
+    run.summary.has_renderer = true;
+    run.summary.plugin = run.session.library->path().string();
+    run.summary.renderer = fmt::format("{} {}", run.session.library->api().name, run.session.library->api().version);
+    run.summary.info = run.session.fluid->info();
+    run.summary.timeline_reason = run.session.timeline_reason;
+}
+
+/// What a frame takes on the CPU, at least: four floats a pixel read back, the PNG's bytes, and with layers ten images
+/// of up to four floats and the seventeen channels made of them.
+Error noMemory(scene::Size size, bool layers) {
+    const std::uint64_t pixel = layers ? 20 + 10 * 8 + 17 * 4 : 20;
+    const std::uint64_t bytes = std::uint64_t{size.width} * size.height * pixel;
+    return Error{SLUICE_ERROR_OUT_OF_MEMORY, fmt::format("a frame of {}x{}", size.width, size.height),
+                 fmt::format("there is not enough memory; its pixels alone take about {} bytes", bytes),
+                 layers ? "give a smaller --size, or leave out --layers" : "give a smaller --size"};
+}
+
+/// Starts the renderer and renders. Running out of memory ends the run, not the files that are already written.
+int renderAll(Run& run) {
+    try {
+        if (!run.options.no_fluid) {
+            if (const Status status = startFluid(run.session, run.inputs, run.options); !status) {
+                noteProblem(run, status.error());
+            } else {
+                describeRenderer(run);
+            }
+        }
+        return renderFrames(run);
+    } catch (const std::bad_alloc&) {
+        const Error error = noMemory(run.inputs.size, !run.options.layers.empty());
+        logError(error);
+        run.summary.problems.push_back(error.message());
+        return kExitInternal;
+    }
+}
+
 /// The renderer's shut-down belongs to the trace too, so the trace is written after it.
 int finish(Run& run, int code) {
     run.session.fluid.reset();
     std::vector<TraceRecord> last = run.session.trace->drain();
+    RunSummary& s = run.summary;
+    s.validation_messages = std::max(s.validation_messages, run.session.validation_messages->load());
+    if (s.validation_messages > 0) {
+        s.problems.push_back(fmt::format("the Vulkan validation layer had {} messages; they are in the log above",
+                                         s.validation_messages));
+        s.exit_code = kExitNoFluid;
+    }
     run.summary.trace_dropped = run.session.trace->dropped();
     if (!run.options.trace.empty()) {
         run.records.insert(run.records.end(), last.begin(), last.end());
@@ -169,48 +220,61 @@ int finish(Run& run, int code) {
     return run.summary.exit_code;
 }
 
-void describeRenderer(Run& run) {
-    run.summary.has_renderer = true;
-    run.summary.plugin = run.session.library->path().string();
-    run.summary.renderer = fmt::format("{} {}", run.session.library->api().name, run.session.library->api().version);
-    run.summary.info = run.session.fluid->info();
-    run.summary.timeline_reason = run.session.timeline_reason;
-}
-
-}  // namespace
-
-int render(const RenderOptions& options) {
-    Result<RenderInputs> inputs = readScene(options);
-    if (!inputs) {
-        logError(inputs.error());
-        return kExitBadInput;
-    }
-    if (const Status status = checkOutputs(options, inputs.value().frames); !status) {
+int renderChecked(const RenderOptions& options, RenderInputs inputs) {
+    if (const Status status = checkOutputs(options, inputs.frames); !status) {
         logError(status.error());
         return kExitUsage;
     }
-    if (const Status status = checkInputs(inputs.value()); !status) {
+    if (const Status status = checkRoles(options, inputs); !status) {
+        logError(status.error());
+        return kExitUsage;
+    }
+    OutputFolders folders;
+    if (const Status status = prepareOutputs(folders, options, inputs.frames); !status) {
+        logError(status.error());
+        return kExitInternal;
+    }
+    if (const Status status = checkInputs(inputs, !options.quiet); !status) {
         logError(status.error());
         return kExitBadInput;
     }
-    Result<RenderSession> session = createSession(inputs.value());
+    if (interrupted()) {
+        return kExitInterrupted;
+    }
+    Result<RenderSession> session = createSession(inputs);
     if (!session) {
         logError(session.error());
         return kExitInternal;
     }
-    watchForInterrupt();
-    Run run{options, std::move(inputs).value(), std::move(session).value(), {}, {}, {}, {}};
+    Run run{options, std::move(inputs), std::move(session).value(), {}, {}, {}, {}};
     run.summary.scene = options.scene;
     run.summary.frames = run.inputs.frames;
     run.summary.size = run.inputs.size;
-    if (!options.no_fluid) {
-        if (const Status status = startFluid(run.session, run.inputs, options); !status) {
-            noteProblem(run, status.error());
-        } else {
-            describeRenderer(run);
-        }
+    return finish(run, renderAll(run));
+}
+
+}  // namespace
+
+int render(const RenderOptions& asked) {
+    watchForInterrupt();
+    Result<RenderInputs> inputs = readScene(asked);
+    if (!inputs) {
+        logError(inputs.error());
+        return kExitBadInput;
     }
-    return finish(run, renderFrames(run));
+    RenderOptions options = asked;
+    options.layers = asked.layers.empty() ? "" : numberedPattern(asked.layers, inputs.value().frames);
+    if (options.layers != asked.layers) {
+        log(SLUICE_LOG_WARNING,
+            fmt::format("--layers {}: several frames, so they are numbered: {}", asked.layers, options.layers));
+    }
+    const scene::Size size = inputs.value().size;
+    try {
+        return renderChecked(options, std::move(inputs).value());
+    } catch (const std::bad_alloc&) {
+        logError(noMemory(size, !options.layers.empty()));
+        return kExitInternal;
+    }
 }
 
 }  // namespace sluice::cli

@@ -1,7 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "app/render_inputs.hpp"
 
+#include <fmt/format.h>
+
 #include <set>
+#include <system_error>
+
+#include "app/interrupt.hpp"
+#include "report/progress.hpp"
 
 namespace sluice::cli {
 
@@ -49,16 +55,37 @@ Result<particles::ParticleSet> loadParticles(const scene::ParticleSource& source
     return set;
 }
 
-Status checkInputs(RenderInputs& inputs) {
+namespace {
+
+/// A pipe would be waited for, a device could have no end.
+Status checkRegular(const std::filesystem::path& path) {
+    std::error_code ignored;
+    const std::filesystem::file_status there = std::filesystem::status(path, ignored);
+    if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, path.string(),
+                     "expected a regular file, found a folder or a device", "name an image file"};
+    }
+    return {};
+}
+
+}  // namespace
+
+Status checkInputs(RenderInputs& inputs, bool progress) {
     if (!inputs.scene.environment.empty()) {
+        if (Status status = checkRegular(inputs.scene.environment); !status) {
+            return status;
+        }
         Result<Environment> map = loadEnvironment(inputs.scene.environment);
         if (!map) {
             return map.error();
         }
         inputs.environment = std::move(map).value();
     }
+    const bool sequence = particles::Sequence{inputs.scene.particles.path}.numbered();
+    Progress bar(sequence ? static_cast<std::uint64_t>(inputs.frames.count()) : 1, progress);
     std::set<std::filesystem::path> seen;
-    for (std::int64_t frame = inputs.frames.first; frame <= inputs.frames.last; ++frame) {
+    for (std::int64_t frame = inputs.frames.first; frame <= inputs.frames.last && !interrupted(); ++frame) {
+        bar.update(seen.size(), fmt::format("checking frame {}", frame));
         const Result<std::filesystem::path> path = particlePath(inputs.scene.particles, frame);
         if (!path) {
             return path.error();
@@ -66,9 +93,12 @@ Status checkInputs(RenderInputs& inputs) {
         if (!seen.insert(path.value()).second) {
             break;  // not numbered: every frame reads the same file
         }
-        const Result<particles::ParticleSet> set = loadParticles(inputs.scene.particles, path.value());
+        Result<particles::ParticleSet> set = loadParticles(inputs.scene.particles, path.value());
         if (!set) {
             return set.error();
+        }
+        if (!inputs.first) {
+            inputs.first = LoadedParticles{path.value(), std::move(set).value()};
         }
     }
     return {};

@@ -13,18 +13,26 @@
 
 namespace sluice::cli {
 
+struct LoadedParticles {
+    std::filesystem::path path;
+    particles::ParticleSet set;  ///< in world space
+};
+
 struct RenderInputs {
     scene::Scene scene;
     scene::FrameRange frames;
     scene::Size size;
     std::optional<Environment> environment;
+    /// The particles of the first frame, kept from the check so that they are not read twice; the frame takes them.
+    std::optional<LoadedParticles> first;
 };
 
 /// The scene with the command line's overrides. Reads the scene file only.
 [[nodiscard]] Result<RenderInputs> readScene(const RenderOptions& options);
 
 /// Reads the environment map and every particle file once, so that a bad file is found before the first output.
-[[nodiscard]] Status checkInputs(RenderInputs& inputs);
+/// Draws a progress bar if `progress`. Ends early, with success, when interrupted() (interrupt.hpp).
+[[nodiscard]] Status checkInputs(RenderInputs& inputs, bool progress);
 
 /// The file of `frame`.
 [[nodiscard]] Result<std::filesystem::path> particlePath(const scene::ParticleSource& source, std::int64_t frame);

@@ -15,6 +15,9 @@ namespace {
 constexpr std::size_t kTraceCapacity = 1U
                                        << 14U;  ///< events of one frame; a frame of first light makes about a hundred
 
+/// How the plugin's log lines about the validation layer begin.
+constexpr std::string_view kValidationPrefix = "validation: ";
+
 /// Milliseconds that `work` took.
 template <typename Work>
 double timed(const Work& work) {
@@ -92,6 +95,7 @@ Result<RenderSession> createSession(const RenderInputs& inputs) {
                          std::move(context).value(),
                          std::move(screen).value(),
                          std::move(engine).value(),
+                         std::make_unique<std::atomic<std::uint32_t>>(0),
                          std::nullopt,
                          nullptr,
                          {}};
@@ -112,7 +116,14 @@ Status startFluid(RenderSession& session, const RenderInputs& inputs, const Rend
     config.host_depth = options.depth_format;
     config.validation = options.validation;
     config.trace = session.trace.get();
-    config.log = [](SluiceLogLevel level, std::string_view message) { log(level, message); };
+    config.log = [seen = session.validation_messages.get()](SluiceLogLevel level, std::string_view message) {
+        if (message.starts_with(kValidationPrefix)) {
+            // Whoever asked for validation wants to see every message, with --quiet too.
+            seen->fetch_add(1, std::memory_order_relaxed);
+            level = SLUICE_LOG_ERROR;
+        }
+        log(level, message);
+    };
     Result<std::unique_ptr<host::FluidHost>> fluid = host::FluidHost::create(*session.library, config);
     if (!fluid) {
         return fluid.error();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ struct RenderSession {
     host::GlContext context;
     host::Screen screen;
     host::LegacyEngine engine;
+    std::unique_ptr<std::atomic<std::uint32_t>> validation_messages;  ///< logged so far; any thread counts
     std::optional<host::PluginLibrary> library;
     std::unique_ptr<host::FluidHost> fluid;  ///< null: frames without fluid
     std::string timeline_reason;             ///< why the timeline in use was chosen

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <regex>
 
 #include "program.hpp"
 
@@ -24,6 +25,16 @@ TEST_F(ExitCode, HelpAndVersionAreSuccess) {
     const Outcome version = run("--version");
     EXPECT_EQ(version.code, 0);
     EXPECT_THAT(version.out, HasSubstr("sluice "));
+}
+
+TEST_F(ExitCode, EverySampleThatHelpNamesExists) {
+    const std::string help = run("--help").out;
+    const std::regex sample("samples/[A-Za-z0-9_.-]+[.]json");
+    const auto first = std::sregex_iterator(help.begin(), help.end(), sample);
+    EXPECT_GE(std::distance(first, std::sregex_iterator()), 1);
+    for (auto it = first; it != std::sregex_iterator(); ++it) {
+        EXPECT_TRUE(std::filesystem::exists(std::filesystem::path(SLUICE_SOURCE) / it->str())) << it->str();
+    }
 }
 
 TEST_F(ExitCode, WrongCommandLinesAreOne) {

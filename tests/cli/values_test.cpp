@@ -50,6 +50,11 @@ TEST(Outputs, NeedTheirEndingsAndAPlaceForTheNumber) {
     EXPECT_FALSE(checkOutputs(outputs("a.png"), {1, 2}).ok());
     EXPECT_FALSE(checkOutputs(outputs("a_##.png", "a.exr"), {1, 2}).ok());
     EXPECT_FALSE(checkOutputs(outputs("a_##_%d.png"), {1, 2}).ok());
+    EXPECT_EQ(numberedPattern("out.exr", {1, 2}), "out_%04d.exr");
+    EXPECT_EQ(numberedPattern("a.b/50%%.x.exr", {1, 2}), "a.b/50%%.x_%04d.exr");
+    EXPECT_EQ(numberedPattern("out.exr", {7, 7}), "out.exr");
+    EXPECT_EQ(numberedPattern("out_##.exr", {1, 2}), "out_##.exr");
+    EXPECT_EQ(numberedPattern("a_##_%d.exr", {1, 2}), "a_##_%d.exr");  // left for checkOutputs to refuse
 }
 
 TEST(Outputs, PutTheNumberInPlace) {
