@@ -4,6 +4,17 @@
 #define SLUICE_SPLAT_GLSL
 #include "frame.glsl"
 
+// Depth of a world position. `precise`, so that every shader decides alike which way a sphere is drawn: drawn twice, it
+// would count twice in the thickness.
+float depthOf(vec3 world) {
+    precise const float depth = -(frame.view[0].z * world.x + frame.view[1].z * world.y + frame.view[2].z * world.z +
+                                  frame.view[3].z);
+    return depth;
+}
+
+// Too near to be drawn as a point: its rectangle may be wider than the device's widest point.
+bool isNear(float depth) { return depth < frame.thickness.w; }
+
 // Slopes (offset / depth) between which a disc of centre (x, depth) and radius r lies, seen from the origin, counting only
 // its part beyond the near plane. Each side is the tangent line, or, where the tangent touches nearer than the near plane
 // (or the eye is inside), the end of the chord that the near plane cuts. After Mara & McGuire 2013, "2D Polyhedral Bounds

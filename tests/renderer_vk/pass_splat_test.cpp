@@ -98,6 +98,30 @@ TEST(SplatThickness, MatchesACloudAtFullAndReducedResolution) {
     }
 }
 
+/// Spheres on either side of where a point could no longer cover them, in a picture wider than any point on llvmpipe.
+RigScene nearAndFar() {
+    RigScene scene = emptyScene();
+    scene.width = 402;
+    scene.height = 258;
+    scene.radius = 0.1F;
+    for (const float depth : {0.18F, 0.25F, 0.29F, 0.32F, 0.36F, 0.5F, 0.9F}) {
+        scene.positions.insert(scene.positions.end(), {0.6F * depth - 0.2F, 0.3F * depth - 0.1F, -depth});
+    }
+    return scene;
+}
+
+TEST(SplatDepth, MatchesSpheresWiderThanAnyPoint) {
+    expectMatchesReference(nearAndFar());
+}
+
+TEST(SplatThickness, CountsASphereOnceWhetherItIsAPointOrATriangle) {
+    for (const float scale : {1.0F, 0.5F}) {
+        RigScene scene = nearAndFar();
+        scene.fluid.thickness_scale = scale;
+        expectThicknessMatches(scene);
+    }
+}
+
 TEST(SplatThickness, CountsOnlyWhatIsInFrontOfTheSceneInEitherEncoding) {
     RigScene scene = cloud(200, 0.15F);
     scene.encoding = SLUICE_DEPTH_LINEAR;

@@ -159,6 +159,8 @@ Status createLogical(Device& device) {
     wanted.features.shaderStorageImageReadWithoutFormat = found.features.shaderStorageImageReadWithoutFormat;
     wanted.features.shaderStorageImageWriteWithoutFormat = found.features.shaderStorageImageWriteWithoutFormat;
     wanted.features.shaderStorageImageExtendedFormats = found.features.shaderStorageImageExtendedFormats;
+    wanted.features.largePoints = found.features.largePoints;
+    device.features.large_points = wanted.features.largePoints != VK_FALSE;
     device.features.scalar_block_layout = found12.scalarBlockLayout != VK_FALSE;
     device.features.storage_read_without_format = wanted.features.shaderStorageImageReadWithoutFormat != VK_FALSE;
     device.features.storage_write_without_format = wanted.features.shaderStorageImageWriteWithoutFormat != VK_FALSE;

@@ -31,6 +31,7 @@ struct DeviceFeatures {
     bool storage_write_without_format = false;
     bool storage_extended_formats = false;  ///< r16f and friends as storage images
     bool scalar_block_layout = false;
+    bool large_points = false;           ///< points of more than one pixel
     bool push_descriptor = false;        ///< VK_KHR_push_descriptor
     bool calibrated_timestamps = false;  ///< device and CLOCK_MONOTONIC
 };

@@ -24,7 +24,7 @@ Result<FrameArena> FrameArena::create(const Device& device, std::size_t constant
     const std::array<VkDescriptorPoolSize, 4> sizes{{{VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, 4 * kMaxSets},
                                                      {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, 4 * kMaxSets},
                                                      {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kMaxSets},
-                                                     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kMaxSets}}};
+                                                     {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 2 * kMaxSets}}};
     auto info = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     info.maxSets = kMaxSets;
     info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());

@@ -19,18 +19,6 @@ VkImageMemoryBarrier2 barrierOf(const Image& image, VkImageLayout from, VkImageL
     return barrier;
 }
 
-void afterDispatch(const PassContext& context, VkPipelineStageFlags2 stage, VkAccessFlags2 access) {
-    auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    barrier.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT;
-    barrier.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
-    barrier.dstStageMask = stage;
-    barrier.dstAccessMask = access;
-    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
-}
-
 }  // namespace
 
 void openImages(const PassContext& context) {
@@ -51,7 +39,7 @@ void openImages(const PassContext& context) {
         barriers.push_back(barrier);
     }
     // nothing_to_write is bound in every frame, so that the frames' last dispatches are ordered among themselves; the
-    // tile lists are reset by a copy after the last frame's dispatches have read them.
+    // tile lists and the indirect draw are reset by copies after the last frame has read them.
     auto memory = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
     memory.srcStageMask = VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT;
     memory.srcAccessMask = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT;
@@ -78,13 +66,28 @@ void closeAttachment(const PassContext& context, PlanImage id) {
     context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
 }
 
+void order(const PassContext& context, VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to,
+           VkAccessFlags2 used) {
+    auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
+    barrier.srcStageMask = from;
+    barrier.srcAccessMask = written;
+    barrier.dstStageMask = to;
+    barrier.dstAccessMask = used;
+    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
+    dependency.memoryBarrierCount = 1;
+    dependency.pMemoryBarriers = &barrier;
+    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
+}
+
 void betweenDispatches(const PassContext& context) {
-    afterDispatch(context, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    order(context, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+          VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+          VK_ACCESS_2_SHADER_SAMPLED_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
 }
 
 void beforeFragments(const PassContext& context) {
-    afterDispatch(context, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
+    order(context, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+          VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT, VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
 }
 
 void dispatchTiles(const PassContext& context, const Buffer& tiles) {

@@ -20,6 +20,7 @@ struct PassImages {
     std::array<Image, static_cast<std::size_t>(PlanImage::Count)> own;
     Image nothing_to_read;   ///< 1x1, stands in where a shader's input is switched off
     Image nothing_to_write;  ///< 1x1, stands in where a shader's output is switched off
+    Buffer near_draw;        ///< indirect draw of the spheres that are too near to be points
     Buffer surface_tiles;    ///< which tiles have fluid; see shaders/common/tiles.glsl
     Buffer thickness_tiles;  ///< the same at the resolution of thickness, with the margin of its blur
 
@@ -53,6 +54,9 @@ void closeAttachment(const PassContext& context, PlanImage id);
 void betweenDispatches(const PassContext& context);
 /// After a dispatch: what it wrote is readable by fragments.
 void beforeFragments(const PassContext& context);
+/// What `from` wrote (`written`) may be used by `to` as `used`.
+void order(const PassContext& context, VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to,
+           VkAccessFlags2 used);
 /// A workgroup for each tile of the list.
 void dispatchTiles(const PassContext& context, const Buffer& tiles);
 /// Enough workgroups of `tile_x` x `tile_y` to cover `width` x `height`.

@@ -82,6 +82,13 @@ Result<Image> makeOwn(const Device& device, const PlannedImage& planned) {
                                   toString(planned.id).data()});
 }
 
+Result<Buffer> makeNearDraw(const Device& device) {
+    return Buffer::create(device, {sizeof(VkDrawIndirectCommand),
+                                   VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
+                                       VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                   BufferPlace::Device, "draw of near spheres"});
+}
+
 Result<Buffer> makeTileList(const Device& device, std::uint32_t width, std::uint32_t height) {
     return Buffer::create(device, {tileListBytes(width, height),
                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
@@ -137,8 +144,9 @@ Result<FluidRecorder> FluidRecorder::create(const Device& device) {
     for (const Status& status :
          {take(makePlaceholder(device), state->images.nothing_to_read),
           take(makePlaceholder(device), state->images.nothing_to_write),
-          take(SplatDepthPass::create(device), state->splat_depth), take(TilesPass::create(device), state->tiles),
-          take(FilterPass::create(device), state->filter), take(NormalsPass::create(device), state->normals),
+          take(makeNearDraw(device), state->images.near_draw), take(SplatDepthPass::create(device), state->splat_depth),
+          take(TilesPass::create(device), state->tiles), take(FilterPass::create(device), state->filter),
+          take(NormalsPass::create(device), state->normals),
           take(SplatThicknessPass::create(device), state->splat_thickness),
           take(BlurThicknessPass::create(device), state->blur_thickness), take(EchoPass::create(device), state->echo),
           take(ClearPass::create(device), state->clear)}) {
@@ -213,7 +221,12 @@ void FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, c
                            const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer) {
     assert(state_->plan && *state_->plan == plan);
     FrameArena& arena = state_->arenas.at(frame.image_set);
-    const FrameConstants constants = makeFrameConstants(frame, plan, targets, particles);
+    FrameConstants constants = makeFrameConstants(frame, plan, targets, particles);
+    // A pixel less than the limit, for the rounding of positions and sizes.
+    constants.thickness[3] =
+        state_->device.features.large_points
+            ? nearestPointDepth(constants, state_->device.properties.limits.pointSizeRange[1] - 1.0F)
+            : 1e30F;
     arena.begin(std::as_bytes(std::span(&constants, 1)));
     const PassContext context{state_->device, commands, frame, plan, targets, particles, timer, arena, state_->images};
     openImages(context);

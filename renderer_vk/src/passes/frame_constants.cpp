@@ -66,4 +66,30 @@ FrameConstants makeFrameConstants(const SluiceFrame& frame, const Plan& plan, co
     return block;
 }
 
+float nearestPointDepth(const FrameConstants& block, float widest) {
+    const double r = double{block.focal[2]};
+    // Between the tangents at distance s = |(x, depth)| lie 2 r sqrt(s^2 - r^2) / (depth^2 - r^2) of slope (the
+    // difference of the two bounds in shaders/common/splat.glsl); x is at most where the sphere still touches the
+    // picture's edge.
+    const auto pixels = [&](double depth, std::size_t axis) {
+        const double edge =
+            (1.0 + std::abs(double{block.projection[axis + 2]})) / std::abs(double{block.projection[axis]});
+        const double x = edge * depth + r * std::sqrt(1.0 + edge * edge);
+        return double{block.focal[axis]} * 2.0 * r * std::sqrt(depth * depth + x * x - r * r) / (depth * depth - r * r);
+    };
+    const auto fits = [&](double depth) {
+        return pixels(depth, 0) <= double{widest} && pixels(depth, 1) <= double{widest};
+    };
+    double high = 2.0 * r;
+    for (int doubling = 0; doubling < 64 && !fits(high); ++doubling) {
+        high *= 2.0;
+    }
+    double low = r;
+    for (int halving = 0; halving < 16; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (fits(middle) ? high : low) = middle;
+    }
+    return fits(high) ? static_cast<float>(high * (1.0 + 1e-6)) : 1e30F;
+}
+
 }  // namespace sluice::vk

@@ -26,12 +26,17 @@ struct FrameConstants {
     Vec4 to_sun;                   ///< unit, eye space
     Vec4 sun_radiance;
     Vec4 filter;     ///< delta, mu, sigma; w = cap in pixels
-    Vec4 thickness;  ///< pixels per thickness texel; sigma of the blur; chord weight; particle count
+    Vec4 thickness;  ///< pixels per thickness texel; sigma of the blur; chord weight; depth below which no point is
+                     ///< wide enough
     std::array<std::uint32_t, 4> modes;  ///< SluiceDepthEncoding of HOST_DEPTH
 };
 static_assert(sizeof(FrameConstants) == 64 + 14 * 16, "std140 has no padding here");
 
-/// Derives the block. The projection may be off-centre; its fourth row must be (0, 0, -s, 0) with s > 0.
+/// The depth from which on every sphere that touches the picture has a rectangle of at most `widest` pixels each way.
+[[nodiscard]] float nearestPointDepth(const FrameConstants& block, float widest);
+
+/// Derives the block, but for nearestPointDepth, which depends on the device. The projection may be off-centre; its
+/// fourth row must be (0, 0, -s, 0) with s > 0.
 [[nodiscard]] FrameConstants makeFrameConstants(const SluiceFrame& frame, const Plan& plan, const FrameTargets& targets,
                                                 const ParticleBuffers& particles);
 

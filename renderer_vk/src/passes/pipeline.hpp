@@ -47,11 +47,12 @@ struct SplatDesc {
     const char* name = "";
     std::span<const std::uint32_t> vertex, fragment;
     std::span<const VkDescriptorType> bindings;
+    VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
     VkFormat target = VK_FORMAT_UNDEFINED;
-    VkBlendOp blend = VK_BLEND_OP_ADD;         ///< of source and destination, both with factor one
-    std::span<const std::uint32_t> constants;  ///< specialisation constants 0, 1, ... of both stages
+    VkBlendOp blend = VK_BLEND_OP_ADD;           ///< of source and destination, both with factor one
+    std::span<const std::uint32_t> constants{};  ///< specialisation constants 0, 1, ... of both stages
 };
-/// Triangle list without vertex input, no depth test, no culling; viewport and scissor are dynamic.
+/// Without vertex input, no depth test, no culling; viewport and scissor are dynamic.
 [[nodiscard]] Result<Pipeline> createSplat(const Device& device, const SplatDesc& desc);
 
 }  // namespace sluice::vk

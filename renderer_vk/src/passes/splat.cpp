@@ -3,12 +3,12 @@
 
 #include <shaders/scene_depth_comp.h>
 #include <shaders/splat_depth_frag.h>
+#include <shaders/splat_near_comp.h>
 #include <shaders/splat_thickness_frag.h>
 #include <shaders/splat_vert.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <span>
 #include <utility>
 
@@ -17,27 +17,16 @@
 namespace sluice::vk {
 namespace {
 
-/// A triangle around a square costs half the set-up and twice the fragments. On llvmpipe the two meet where a sphere's
-/// rectangle is about this wide in target texels; on a GPU the difference is small either way.
-constexpr float kLargeTexels = 16.0F;
-
-/// Spheres of one frame share one path: the projected diameter at the distance of the eye's focus, the world origin's
-/// depth, stands for all of them. A wrong guess costs time, never pixels.
-bool large(const PassContext& context, float texels_per_pixel) {
-    const float(&view)[16] = context.frame.camera.view;
-    const float(&projection)[16] = context.frame.camera.projection;
-    const float distance = std::max(-view[14], context.frame.camera.near_plane);
-    const float radius = context.particles.radius * context.frame.fluid.splat_radius;
-    const float pixels = radius * projection[5] / distance * static_cast<float>(context.plan.height);
-    return pixels * texels_per_pixel > kLargeTexels;
-}
+/// Invocations of a workgroup of splat_near.comp, and workgroups in x: devices promise 65535 each way.
+constexpr std::uint32_t kNearInvocations = 256;
+constexpr std::uint32_t kNearRow = 32768;
 
 struct Target {
     PlanImage id;
     float clear;
 };
 
-void draw(const PassContext& context, const Target& target, const Pipeline& pipeline, std::uint32_t vertices,
+void draw(const PassContext& context, const Target& target, const SplatPipelines& pipelines,
           std::span<const Binding> bindings) {
     const Device& device = context.device;
     const Image& image = context.images[target.id];
@@ -53,12 +42,14 @@ void draw(const PassContext& context, const Target& target, const Pipeline& pipe
     rendering.colorAttachmentCount = 1;
     rendering.pColorAttachments = &attachment;
     device.fn.vkCmdBeginRendering(context.commands, &rendering);
-    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline, bindings);
+    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.points, bindings);
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(image.width()), static_cast<float>(image.height()),
                               0.0F, 1.0F};
     device.fn.vkCmdSetViewport(context.commands, 0, 1, &viewport);
     device.fn.vkCmdSetScissor(context.commands, 0, 1, &rendering.renderArea);
-    device.fn.vkCmdDraw(context.commands, context.particles.count * vertices, 1, 0, 0);
+    device.fn.vkCmdDraw(context.commands, context.particles.count, 1, 0, 0);
+    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.triangles, bindings);
+    device.fn.vkCmdDrawIndirect(context.commands, context.images.near_draw.buffer(), 0, 1, 0);
     device.fn.vkCmdEndRendering(context.commands);
 }
 
@@ -66,50 +57,86 @@ constexpr std::array kDepthBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRI
 constexpr std::array kThicknessBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                         VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
 
-Result<Pipeline> depthPipeline(const Device& device, std::uint32_t vertices) {
-    const std::array<std::uint32_t, 2> constants{vertices, 0};
-    return createSplat(device, {"splat_depth", splat_vert, splat_depth_frag, kDepthBindings, VK_FORMAT_R32_SFLOAT,
-                                VK_BLEND_OP_MIN, constants});
+Result<SplatPipelines> splatPipelines(const Device& device, SplatDesc desc, bool scaled) {
+    const std::array<std::uint32_t, 2> point{1, scaled ? 1U : 0U};
+    desc.topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
+    desc.constants = point;
+    auto points = createSplat(device, desc);
+    if (!points) {
+        return points.error();
+    }
+    const std::array<std::uint32_t, 2> triangle{3, scaled ? 1U : 0U};
+    desc.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    desc.constants = triangle;
+    auto triangles = createSplat(device, desc);
+    if (!triangles) {
+        return triangles.error();
+    }
+    return SplatPipelines{std::move(points).value(), std::move(triangles).value()};
 }
 
-Result<Pipeline> thicknessPipeline(const Device& device, std::uint32_t vertices) {
-    const std::array<std::uint32_t, 2> constants{vertices, 1};
-    return createSplat(device, {"splat_thickness", splat_vert, splat_thickness_frag, kThicknessBindings,
-                                VK_FORMAT_R32_SFLOAT, VK_BLEND_OP_ADD, constants});
+/// Decides whether the indirect draw of triangles has any vertices in this frame.
+void findNear(const PassContext& context, const Pipeline& pipeline) {
+    constexpr VkDrawIndirectCommand kNone{0, 1, 0, 0};
+    const VkBuffer near_draw = context.images.near_draw.buffer();
+    context.device.fn.vkCmdUpdateBuffer(context.commands, near_draw, 0, sizeof kNone, &kNone);
+    order(context, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+          VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+    const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position),
+                              readBuffer(near_draw)};
+    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, bindings);
+    const std::uint32_t groups = (context.particles.count + kNearInvocations - 1) / kNearInvocations;
+    context.device.fn.vkCmdDispatch(context.commands, std::min(groups, kNearRow), (groups + kNearRow - 1) / kNearRow,
+                                    1);
+    order(context, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+          VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
 }
 
 }  // namespace
 
 Result<SplatDepthPass> SplatDepthPass::create(const Device& device) {
-    auto small = depthPipeline(device, 3);
-    if (!small) {
-        return small.error();
+    auto pipelines = splatPipelines(device,
+                                    {.name = "splat_depth",
+                                     .vertex = splat_vert,
+                                     .fragment = splat_depth_frag,
+                                     .bindings = kDepthBindings,
+                                     .target = VK_FORMAT_R32_SFLOAT,
+                                     .blend = VK_BLEND_OP_MIN},
+                                    false);
+    if (!pipelines) {
+        return pipelines.error();
     }
-    auto large = depthPipeline(device, 6);
-    if (!large) {
-        return large.error();
+    constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                  VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    auto near = createCompute(device, {"splat_near", splat_near_comp, bindings, 0, {}});
+    if (!near) {
+        return near.error();
     }
-    return SplatDepthPass{std::move(small).value(), std::move(large).value()};
+    return SplatDepthPass{std::move(pipelines).value(), std::move(near).value()};
 }
 
 void SplatDepthPass::record(const PassContext& context) const {
-    const bool use_large = sluice::vk::large(context, 1.0F);
     const std::uint64_t count = context.particles.count;
-    context.timer.begin(context.commands, {"splat_depth", count, count * 12 + context.pixels() * 4, true, 1});
+    context.timer.begin(context.commands, {"splat_depth", count, count * 24 + context.pixels() * 4, true, 3});
+    findNear(context, near);
     const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position)};
-    draw(context, {PlanImage::DepthA, 1e30F}, use_large ? large : small, use_large ? 6 : 3, bindings);
+    draw(context, {PlanImage::DepthA, 1e30F}, pipelines, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::DepthA);
 }
 
 Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device) {
-    auto small = thicknessPipeline(device, 3);
-    if (!small) {
-        return small.error();
-    }
-    auto large = thicknessPipeline(device, 6);
-    if (!large) {
-        return large.error();
+    auto pipelines = splatPipelines(device,
+                                    {.name = "splat_thickness",
+                                     .vertex = splat_vert,
+                                     .fragment = splat_thickness_frag,
+                                     .bindings = kThicknessBindings,
+                                     .target = VK_FORMAT_R32_SFLOAT,
+                                     .blend = VK_BLEND_OP_ADD},
+                                    true);
+    if (!pipelines) {
+        return pipelines.error();
     }
     constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                   VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_IMAGE};
@@ -117,18 +144,16 @@ Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device) {
     if (!scene) {
         return scene.error();
     }
-    return SplatThicknessPass{std::move(small).value(), std::move(large).value(), std::move(scene).value()};
+    return SplatThicknessPass{std::move(pipelines).value(), std::move(scene).value()};
 }
 
 void SplatThicknessPass::record(const PassContext& context) const {
-    const float scale = std::round(1.0F / context.frame.fluid.thickness_scale);
-    const bool use_large = sluice::vk::large(context, 1.0F / scale);
     const Image& image = context.images[PlanImage::Thickness];
     const std::uint64_t count = context.particles.count;
     context.timer.begin(
         context.commands,
         {"splat_thickness", count,
-         count * 12 + context.pixels() * 4 + std::uint64_t{image.width()} * image.height() * 12, true, 2});
+         count * 12 + context.pixels() * 4 + std::uint64_t{image.width()} * image.height() * 12, true, 3});
     const std::array scene_bindings{
         uniform(context.arena.constants()), readBuffer(context.images.thickness_tiles.buffer()),
         sampled(context.targets.host_depth.view), storage(context.images[PlanImage::SceneDepth].view())};
@@ -137,7 +162,7 @@ void SplatThicknessPass::record(const PassContext& context) const {
     beforeFragments(context);
     const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position),
                               sampled(context.images[PlanImage::SceneDepth].view())};
-    draw(context, {PlanImage::Thickness, 0.0F}, use_large ? large : small, use_large ? 6 : 3, bindings);
+    draw(context, {PlanImage::Thickness, 0.0F}, pipelines, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::Thickness);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spheres drawn as screen-space triangles: nearest depth, and sum of thickness.
+// Spheres drawn as points or triangles: nearest depth, and sum of thickness.
 #pragma once
 
 #include "passes/context.hpp"
@@ -7,17 +7,24 @@
 
 namespace sluice::vk {
 
+/// The same spheres, drawn in one of two ways.
+struct SplatPipelines {
+    Pipeline points;     ///< one vertex per sphere
+    Pipeline triangles;  ///< one triangle per sphere that is too near to be a point
+};
+
 struct SplatDepthPass {
     static Result<SplatDepthPass> create(const Device& device);
+    /// Also decides, for both splats, whether triangles are needed.
     void record(const PassContext& context) const;
-    Pipeline small;  ///< one triangle per sphere
-    Pipeline large;  ///< two triangles per sphere
+    SplatPipelines pipelines;
+    Pipeline near;
 };
 
 struct SplatThicknessPass {
     static Result<SplatThicknessPass> create(const Device& device);
     void record(const PassContext& context) const;
-    Pipeline small, large;
+    SplatPipelines pipelines;
     Pipeline scene;  ///< the scene's depth at the resolution of thickness
 };
 

@@ -7,8 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "device/structs.hpp"
-
 namespace sluice::vk {
 namespace {
 
@@ -46,19 +44,6 @@ void clearOutside(const PassContext& context) {
     clear(context, context.targets.fluid_depth.image, 1.0F);
     clear(context, context.targets.fluid_normal.image, 0.0F);
     clear(context, context.targets.fluid_thickness.image, 0.0F);
-}
-
-void order(const PassContext& context, VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to,
-           VkAccessFlags2 used) {
-    auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    barrier.srcStageMask = from;
-    barrier.srcAccessMask = written;
-    barrier.dstStageMask = to;
-    barrier.dstAccessMask = used;
-    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
 }
 
 }  // namespace

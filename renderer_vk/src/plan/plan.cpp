@@ -199,7 +199,7 @@ class Builder {
 
     void surface() {
         image(PlanImage::DepthA, SLUICE_FORMAT_R32F);
-        keep(PassId::SplatDepth, {}, {PlanImage::DepthA}, 1, "every view of the fluid needs its depth");
+        keep(PassId::SplatDepth, {}, {PlanImage::DepthA}, 3, "every view of the fluid needs its depth");
         tiles();
         if (wants_.filter) {
             plan_.filter_iterations = needs_.fluid.filter_iterations;
@@ -245,7 +245,7 @@ class Builder {
         image(PlanImage::Thickness, SLUICE_FORMAT_R32F, divisor);
         image(PlanImage::SceneDepth, SLUICE_FORMAT_R32F, divisor);
         keep(PassId::SplatThickness, {PlanImage::HostDepth, PlanImage::ThicknessTiles},
-             {PlanImage::SceneDepth, PlanImage::Thickness}, 2, thicknessReason(needs_));
+             {PlanImage::SceneDepth, PlanImage::Thickness}, 3, thicknessReason(needs_));
         if (wants_.blur) {
             image(PlanImage::ThicknessSums, SLUICE_FORMAT_RG32F, divisor);
             keep(PassId::BlurThickness, {PlanImage::Thickness, plan_.surface, PlanImage::ThicknessTiles},
