@@ -186,6 +186,39 @@ TEST_F(Timeline, DrainKeepsAPromiseThatTheHostBroke) {
     EXPECT_TRUE(timeline->signal(4)) << "and the counter goes on from there";
 }
 
+TEST_F(Timeline, DrainWaitsOnWhileTheHostIsSlowButMoves) {
+    const auto timeline = make(SLUICE_TIMELINE_BRIDGED);
+    ASSERT_TRUE(timeline);
+    constexpr std::uint64_t kSlowFrames = 6;
+    for (std::uint64_t k = 1; k <= kSlowFrames; ++k) {
+        ASSERT_TRUE(submitEmpty(*timeline, k));
+    }
+    // Six steps of half the grace each: three graces in all, but never a whole one without progress.
+    constexpr std::chrono::milliseconds kStep{500};
+    bool kept = true;
+    std::thread host([&] {
+        for (std::uint64_t k = 1; k <= kSlowFrames; ++k) {
+            std::this_thread::sleep_for(kStep);
+            // One by one: see RendererTimeline::force.
+            kept = kept && (k == 1 || timeline->signal(2 * k - 2).ok()) && timeline->signal(2 * k - 1).ok();
+        }
+    });
+    const Drained drained = timeline->drain(2 * std::chrono::nanoseconds(kStep).count());
+    host.join();
+    EXPECT_EQ(drained, Drained::Idle);
+    EXPECT_TRUE(kept);
+    EXPECT_EQ(timeline->value(SLUICE_HOST_TO_RENDERER).value(), 2 * kSlowFrames - 1);
+    EXPECT_EQ(timeline->forced(), 0U);
+}
+
+TEST_F(Timeline, KindsThatGlSignalsGetALongerGrace) {
+    constexpr std::uint64_t kTenSeconds = 10'000'000'000;
+    EXPECT_EQ(RendererTimeline::graceOf(SLUICE_TIMELINE_BINARY, kShort), kTenSeconds);
+    EXPECT_EQ(RendererTimeline::graceOf(SLUICE_TIMELINE_NATIVE, kShort), kTenSeconds);
+    EXPECT_EQ(RendererTimeline::graceOf(SLUICE_TIMELINE_NATIVE, 2 * kTenSeconds), 2 * kTenSeconds);
+    EXPECT_EQ(RendererTimeline::graceOf(SLUICE_TIMELINE_BRIDGED, kShort), kShort);
+}
+
 TEST_F(Timeline, DrainDoesNotWaitForTheGraceWhenAllIsDone) {
     const auto timeline = make(SLUICE_TIMELINE_BRIDGED);
     ASSERT_TRUE(timeline);

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <optional>
+#include <utility>
 
 #include "device/structs.hpp"
 #include "sluice/format.hpp"
@@ -11,6 +14,12 @@
 
 namespace sluice::vk {
 namespace {
+
+// GL signals by itself, after work of any length. To give up too early leaks the device (BINARY), or makes GL signal a
+// value that the counter has passed (NATIVE).
+constexpr std::uint64_t kGpuGraceNs = 10'000'000'000;
+// How often drain() looks whether a counter has moved.
+constexpr std::uint64_t kLookNs = 100'000'000;
 
 VkSemaphoreSubmitInfo submitInfo(VkSemaphore semaphore, std::uint64_t value) {
     auto info = vkStruct<VkSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO);
@@ -189,8 +198,37 @@ Drained RendererTimeline::idle() const {
     return device_.fn.vkQueueWaitIdle(device_.queue) == VK_SUCCESS ? Drained::Idle : Drained::Lost;
 }
 
+std::uint64_t RendererTimeline::graceOf(SluiceTimelineKind kind, std::uint64_t grace_ns) {
+    const bool gl_signals = kind == SLUICE_TIMELINE_NATIVE || kind == SLUICE_TIMELINE_BINARY;
+    return gl_signals ? std::max(grace_ns, kGpuGraceNs) : grace_ns;
+}
+
+SluiceResult RendererTimeline::waitWhileMoving(std::uint64_t grace_ns) const {
+    using Clock = std::chrono::steady_clock;
+    const auto counters = [this]() -> std::optional<std::pair<std::uint64_t, std::uint64_t>> {
+        const Result<std::uint64_t> host = value(SLUICE_HOST_TO_RENDERER);
+        const Result<std::uint64_t> renderer = value(SLUICE_RENDERER_TO_HOST);
+        return host && renderer ? std::optional(std::pair(host.value(), renderer.value())) : std::nullopt;
+    };
+    auto seen = counters();
+    auto moved = Clock::now();
+    for (;;) {
+        const SluiceResult result = wait(last_signal_, std::min(grace_ns, kLookNs));
+        if (result != SLUICE_TIMEOUT) {
+            return result;
+        }
+        const auto now = counters();
+        if (now != seen) {
+            seen = now;
+            moved = Clock::now();
+        } else if (Clock::now() - moved >= std::chrono::nanoseconds(grace_ns)) {
+            return SLUICE_TIMEOUT;
+        }
+    }
+}
+
 Drained RendererTimeline::drain(std::uint64_t grace_ns) {
-    if (last_signal_ == 0 || wait(last_signal_, grace_ns) != SLUICE_TIMEOUT) {
+    if (last_signal_ == 0 || waitWhileMoving(graceOf(kind_, grace_ns)) != SLUICE_TIMEOUT) {
         return idle();
     }
     Result<std::uint64_t> host = value(SLUICE_HOST_TO_RENDERER);

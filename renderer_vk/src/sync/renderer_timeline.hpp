@@ -63,13 +63,21 @@ class RendererTimeline {
     /// Frame `frame` is done, and so is the host with what was exported for it: binary semaphores are destroyed.
     void retireFrame(std::uint64_t frame);
 
-    /// Waits until every submission has finished. If one waits for a host value that does not come within `grace_ns`, a
-    /// timeline semaphore is moved on by force, with a warning in the log. Binary semaphores cannot be.
+    /// What drain() makes of its grace: where GL signals by itself (NATIVE, BINARY), after work of any length, ten
+    /// seconds at least.
+    [[nodiscard]] static std::uint64_t graceOf(SluiceTimelineKind kind, std::uint64_t grace_ns);
+    /// Waits until every submission has finished. If neither counter moves for graceOf(kind, grace_ns) and a submission
+    /// waits for a host value that has not come, a timeline semaphore is moved on by force, with a warning in the log.
+    /// Binary semaphores cannot be.
     [[nodiscard]] Drained drain(std::uint64_t grace_ns);
+    /// Up to which host value drain() has moved the counter on by force, 0: never. Not while another thread drains.
+    [[nodiscard]] std::uint64_t forced() const { return forced_; }
 
   private:
     [[nodiscard]] bool cpuSignals() const;
     [[nodiscard]] Drained idle() const;
+    /// Waits for the last submission until neither counter has moved for `grace_ns`.
+    [[nodiscard]] SluiceResult waitWhileMoving(std::uint64_t grace_ns) const;
     void force(std::uint64_t from, std::uint64_t through);
 
     const Device& device_;
