@@ -30,7 +30,9 @@ class BinaryTimeline final : public HostTimeline {
         if (!semaphore) {
             return semaphore.error();
         }
-        semaphore.value().signal(textures);
+        if (Status status = semaphore.value().signal(textures); !status) {
+            return status;
+        }
         traceStep(deps_.trace, SLUICE_TRACE_SIGNAL, SLUICE_TRACK_HOST_CPU, SLUICE_HOST_TO_RENDERER, value, begin,
                   "signal renderer");
         return {};
@@ -47,10 +49,22 @@ class BinaryTimeline final : public HostTimeline {
         if (!semaphore) {
             return semaphore.error();
         }
-        semaphore.value().wait(textures);
+        if (Status status = semaphore.value().wait(textures); !status) {
+            return status;
+        }
         waited_ = value;
         traceStep(deps_.trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
                   "wait for renderer");
+        return {};
+    }
+
+    /// Imports the semaphores of the first frame and lets go of them: whether the two drivers understand each other.
+    [[nodiscard]] Status trial() const {
+        for (const SluiceDirection direction : {SLUICE_HOST_TO_RENDERER, SLUICE_RENDERER_TO_HOST}) {
+            if (Result<GlSemaphore> semaphore = importValue(direction, 1); !semaphore) {
+                return semaphore.error();
+            }
+        }
         return {};
     }
 
@@ -76,7 +90,11 @@ Result<std::unique_ptr<HostTimeline>> makeBinaryTimeline(const TimelineDeps& dep
                          "request timeline 'auto' or 'bridged'"};
         }
     }
-    return std::unique_ptr<HostTimeline>(std::make_unique<BinaryTimeline>(deps));
+    auto timeline = std::make_unique<BinaryTimeline>(deps);
+    if (Status status = timeline->trial(); !status) {
+        return status.error();
+    }
+    return std::unique_ptr<HostTimeline>(std::move(timeline));
 }
 
 }  // namespace sluice::host

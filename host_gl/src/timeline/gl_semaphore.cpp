@@ -7,7 +7,6 @@
 
 #include <string>
 
-#include "screen/gl_guards.hpp"
 #include "share/gl_errors.hpp"
 #include "share/sized.hpp"
 
@@ -22,6 +21,15 @@ constexpr GLint kTypeTimeline = 0x95B5;    // GL_SEMAPHORE_TYPE_TIMELINE_NV
 
 std::vector<GLenum> generalLayouts(std::size_t count) {
     return std::vector<GLenum>(count, GL_LAYOUT_GENERAL_EXT);
+}
+
+/// What `call`, made inside a GlErrorScope, was refused for.
+Status refusalOf(const char* call) {
+    const std::string raised = GlErrorScope::take();
+    if (raised.empty()) {
+        return {};
+    }
+    return Error{SLUICE_ERROR_INTERNAL, call, fmt::format("OpenGL raised {}", raised), "request the bridged timeline"};
 }
 
 }  // namespace
@@ -47,7 +55,7 @@ GlSemaphore::~GlSemaphore() {
 }
 
 Result<GlSemaphore> GlSemaphore::import(UniqueFd fd, const NvTimelineFunctions* timeline) {
-    clearGlErrors();
+    const GlErrorScope errors;
     GlSemaphore semaphore;
     if (timeline != nullptr) {
         timeline->create(1, &semaphore.semaphore_);
@@ -57,28 +65,34 @@ Result<GlSemaphore> GlSemaphore::import(UniqueFd fd, const NvTimelineFunctions* 
         glGenSemaphoresEXT(1, &semaphore.semaphore_);
     }
     glImportSemaphoreFdEXT(semaphore.semaphore_, GL_HANDLE_TYPE_OPAQUE_FD_EXT, fd.get());
-    if (const std::string errors = takeGlErrors(); !errors.empty()) {
-        return Error{SLUICE_ERROR_IMPORT, "import of a semaphore", fmt::format("OpenGL raised {}", errors),
+    if (const std::string raised = GlErrorScope::take(); !raised.empty()) {
+        return Error{SLUICE_ERROR_IMPORT, "import of a semaphore", fmt::format("OpenGL raised {}", raised),
                      "request the bridged timeline"};
     }
     static_cast<void>(fd.release());  // GL's from now on
     return semaphore;
 }
 
-void GlSemaphore::setValue(std::uint64_t value) const {
+Status GlSemaphore::setValue(std::uint64_t value) const {
+    const GlErrorScope errors;
     const GLuint64 number = value;
     glSemaphoreParameterui64vEXT(semaphore_, kTimelineValue, &number);
+    return refusalOf("glSemaphoreParameterui64vEXT");
 }
 
-void GlSemaphore::signal(std::span<const std::uint32_t> textures) const {
+Status GlSemaphore::signal(std::span<const std::uint32_t> textures) const {
+    const GlErrorScope errors;
     const std::vector<GLenum> layouts = generalLayouts(textures.size());
     glSignalSemaphoreEXT(semaphore_, 0, nullptr, static_cast<GLuint>(textures.size()), textures.data(), layouts.data());
     glFlush();
+    return refusalOf("glSignalSemaphoreEXT");
 }
 
-void GlSemaphore::wait(std::span<const std::uint32_t> textures) const {
+Status GlSemaphore::wait(std::span<const std::uint32_t> textures) const {
+    const GlErrorScope errors;
     const std::vector<GLenum> layouts = generalLayouts(textures.size());
     glWaitSemaphoreEXT(semaphore_, 0, nullptr, static_cast<GLuint>(textures.size()), textures.data(), layouts.data());
+    return refusalOf("glWaitSemaphoreEXT");
 }
 
 Result<UniqueFd> exportTimeline(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value) {

@@ -39,11 +39,13 @@ class GlSemaphore {
     /// A binary semaphore, or with `timeline` a timeline. Takes the descriptor; on failure it is closed.
     [[nodiscard]] static Result<GlSemaphore> import(UniqueFd fd, const NvTimelineFunctions* timeline);
 
+    // Each fails with the name of the call and what GL raised; the host's own error flags are left as found.
+
     /// For timelines: the value of the next signal or wait.
-    void setValue(std::uint64_t value) const;
+    [[nodiscard]] Status setValue(std::uint64_t value) const;
     /// Every texture is in GL_LAYOUT_GENERAL_EXT on both sides. Flushes: only newer drivers do so by themselves.
-    void signal(std::span<const std::uint32_t> textures) const;
-    void wait(std::span<const std::uint32_t> textures) const;
+    [[nodiscard]] Status signal(std::span<const std::uint32_t> textures) const;
+    [[nodiscard]] Status wait(std::span<const std::uint32_t> textures) const;
 
   private:
     std::uint32_t semaphore_ = 0;

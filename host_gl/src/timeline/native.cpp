@@ -22,8 +22,12 @@ class NativeTimeline final : public HostTimeline {
 
     [[nodiscard]] Status signal(std::uint64_t value, std::span<const std::uint32_t> textures) override {
         const std::uint64_t begin = traceClock(deps_.trace);
-        to_renderer_.setValue(value);
-        to_renderer_.signal(textures);
+        if (Status status = to_renderer_.setValue(value); !status) {
+            return status;
+        }
+        if (Status status = to_renderer_.signal(textures); !status) {
+            return status;
+        }
         traceStep(deps_.trace, SLUICE_TRACE_SIGNAL, SLUICE_TRACK_HOST_CPU, SLUICE_HOST_TO_RENDERER, value, begin,
                   "signal renderer");
         return {};
@@ -32,8 +36,12 @@ class NativeTimeline final : public HostTimeline {
     [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t /*timeout_ns*/,
                               std::span<const std::uint32_t> textures) override {
         const std::uint64_t begin = traceClock(deps_.trace);
-        to_host_.setValue(value);
-        to_host_.wait(textures);
+        if (Status status = to_host_.setValue(value); !status) {
+            return status;
+        }
+        if (Status status = to_host_.wait(textures); !status) {
+            return status;
+        }
         traceStep(deps_.trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
                   "wait for renderer");
         return {};
