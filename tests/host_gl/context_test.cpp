@@ -2,11 +2,19 @@
 #include "sluice/host_gl/context.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <cstring>
+#include <optional>
+#include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
+#include "context/device_choice.hpp"
+#include "context/egl_devices.hpp"
 #include "gl_test.hpp"
+#include "share/gl_errors.hpp"
 #include "sluice/format.hpp"
 #include "sluice/host_gl/screen.hpp"
 #include "sluice/host_gl/state_snapshot.hpp"
@@ -143,6 +151,140 @@ TEST_F(Capabilities, QueryLeavesStateAndErrorFlagClean) {
     (void)queryCapabilities();
     EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
     EXPECT_TRUE(differences(before, takeStateSnapshot()).empty());
+}
+
+TEST(GlDevice, IsSurfacelessUnlessAnIndexIsGiven) {
+    EXPECT_EQ(parseGlDevice("").value(), std::nullopt);
+    EXPECT_EQ(parseGlDevice("surfaceless").value(), std::nullopt);
+    EXPECT_EQ(parseGlDevice("0").value(), 0U);
+    EXPECT_EQ(parseGlDevice("12").value(), 12U);
+}
+
+TEST(GlDevice, OfABadValueIsRefusedByNameValueAndRemedy) {
+    for (const char* bad : {"nvidia", "-1", "1 ", " 1", "0x1", "1.0", "99999999999999999999999"}) {
+        const auto choice = parseGlDevice(bad);
+        ASSERT_FALSE(choice) << bad;
+        EXPECT_EQ(choice.error().message(),
+                  "SLUICE_GL_DEVICE: expected 'surfaceless' or the index of an EGL device, found '" + std::string(bad) +
+                      "' (see the list of EGL devices in 'sluice probe', or unset the variable)");
+    }
+}
+
+/// Sets SLUICE_GL_DEVICE for a scope.
+class DeviceVariable {
+  public:
+    explicit DeviceVariable(const std::string& value) {
+        if (const char* before = std::getenv(kGlDeviceVariable)) {
+            before_ = before;
+        }
+        setenv(kGlDeviceVariable, value.c_str(), 1);
+    }
+    DeviceVariable(const DeviceVariable&) = delete;
+    DeviceVariable& operator=(const DeviceVariable&) = delete;
+    ~DeviceVariable() {
+        if (before_) {
+            setenv(kGlDeviceVariable, before_->c_str(), 1);
+        } else {
+            unsetenv(kGlDeviceVariable);
+        }
+    }
+
+  private:
+    std::optional<std::string> before_;
+};
+
+TEST(GlDevice, EveryListedIndexOpensOrSaysWhyAndTheNextOneDoesNotExist) {
+    const std::vector<std::string> lines = eglDevices();
+    const std::vector<EGLDeviceEXT> devices = listEglDevices();
+    ASSERT_EQ(lines.size(), devices.size());
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        EXPECT_EQ(lines[i].rfind(std::to_string(i) + ": ", 0), 0U) << lines[i];
+        EXPECT_NE(eglQueryDeviceStringEXT(devices[i], EGL_EXTENSIONS), nullptr) << "no device at all";
+        const DeviceVariable variable(std::to_string(i));
+        const auto context = GlContext::create();
+        if (context || isSoftwareDevice(devices[i])) {
+            ASSERT_TRUE(context) << context.error().message();
+            EXPECT_TRUE(context.value().makeCurrent().ok());
+        } else {
+            EXPECT_NE(context.error().message().find("device " + std::to_string(i)), std::string::npos)
+                << context.error().message();
+        }
+    }
+    const DeviceVariable variable(std::to_string(lines.size()));
+    const auto none = GlContext::create();
+    ASSERT_FALSE(none);
+    EXPECT_NE(none.error().message().find("SLUICE_GL_DEVICE: there is no EGL device " + std::to_string(lines.size())),
+              std::string::npos)
+        << none.error().message();
+}
+
+TEST(GlDevice, OfABadVariableFailsTheContext) {
+    const DeviceVariable variable("card0");
+    const auto context = GlContext::create();
+    ASSERT_FALSE(context);
+    EXPECT_NE(context.error().message().find("found 'card0'"), std::string::npos);
+}
+
+TEST_F(Capabilities, NoteNamesTheVariableOnlyWhereAnotherDeviceExists) {
+    const std::vector<EGLDeviceEXT> devices = listEglDevices();
+    const bool hardware = std::any_of(devices.begin(), devices.end(), [](auto d) { return !isSoftwareDevice(d); });
+    const SluiceHostCapabilities caps = queryCapabilities();
+    const bool software = std::string_view(&caps.renderer[0]).find("llvmpipe") != std::string_view::npos;
+    const std::string note = glDeviceNote();
+    EXPECT_EQ(note.find("set SLUICE_GL_DEVICE=") != std::string::npos, hardware && software) << note;
+    EXPECT_EQ(note.empty(), !(hardware && software)) << note;
+}
+
+class ErrorScope : public GlTest {};
+
+TEST_F(ErrorScope, TellsItsOwnErrorsFromTheHostsAndLeavesThoseAsFound) {
+    while (glGetError() != GL_NO_ERROR) {
+    }
+    constexpr std::array<GLenum, 5> kFlags{GL_NO_ERROR, GL_INVALID_ENUM, GL_INVALID_VALUE, GL_INVALID_OPERATION,
+                                           GL_INVALID_FRAMEBUFFER_OPERATION};
+    for (const GLenum hosts : kFlags) {
+        SCOPED_TRACE(hosts);
+        const auto raiseHosts = [hosts] {
+            GLuint framebuffer = 0;
+            switch (hosts) {
+                case GL_INVALID_ENUM:
+                    glMatrixMode(GL_RGBA);
+                    break;
+                case GL_INVALID_VALUE:
+                    glLineWidth(-1.0F);
+                    break;
+                case GL_INVALID_OPERATION:
+                    glEnd();
+                    break;
+                case GL_INVALID_FRAMEBUFFER_OPERATION:
+                    glGenFramebuffers(1, &framebuffer);
+                    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+                    glClear(GL_COLOR_BUFFER_BIT);
+                    glDeleteFramebuffers(1, &framebuffer);
+                    break;
+                default:
+                    break;
+            }
+        };
+        raiseHosts();
+        ASSERT_EQ(glGetError(), hosts);
+        raiseHosts();
+        const StateSnapshot before = [] {
+            const GlErrorScope aside;
+            return takeStateSnapshot();
+        }();
+        {
+            const GlErrorScope errors;
+            EXPECT_EQ(GlErrorScope::take(), "");
+            glLineWidth(-1.0F);
+            EXPECT_EQ(GlErrorScope::take(), "GL_INVALID_VALUE (0x0501)");
+            EXPECT_EQ(GlErrorScope::take(), "");
+            glLineWidth(-1.0F);  // not taken: dropped, and not the host's
+        }
+        EXPECT_EQ(glGetError(), hosts);
+        EXPECT_EQ(glGetError(), GLenum{GL_NO_ERROR});
+        EXPECT_TRUE(differences(before, takeStateSnapshot()).empty());
+    }
 }
 
 }  // namespace

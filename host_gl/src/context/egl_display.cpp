@@ -9,6 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "context/device_choice.hpp"
+#include "context/egl_devices.hpp"
+
 namespace sluice::host {
 namespace {
 
@@ -43,21 +46,8 @@ void removeUser(EGLDisplay display) {
     }
 }
 
-bool inList(const char* extensions, const char* name) {
-    return extensions != nullptr && epoxy_extension_in_string(extensions, name);
-}
-
 Error eglError(std::string_view step, std::string_view remedy) {
     return {SLUICE_ERROR_UNSUPPORTED, std::string(step), takeEglError(), std::string(remedy)};
-}
-
-std::vector<EGLDeviceEXT> devices() {
-    std::array<EGLDeviceEXT, 16> list{};
-    EGLint count = 0;
-    if (eglQueryDevicesEXT(static_cast<EGLint>(list.size()), list.data(), &count) != EGL_TRUE) {
-        return {};
-    }
-    return {list.begin(), list.begin() + count};
 }
 
 }  // namespace
@@ -105,14 +95,14 @@ Result<std::shared_ptr<EglDisplay>> EglDisplay::initialise(EGLDisplay display, s
     // From here on the destructor gives the display back.
     std::shared_ptr<EglDisplay> opened(new EglDisplay(display, EGL_NO_CONFIG_KHR));
     const char* extensions = eglQueryString(display, EGL_EXTENSIONS);
-    if (!inList(extensions, "EGL_KHR_surfaceless_context")) {
+    if (!inEglList(extensions, "EGL_KHR_surfaceless_context")) {
         return Error{SLUICE_ERROR_UNSUPPORTED, "EGL display" + where, "EGL_KHR_surfaceless_context is missing",
                      std::string(kMesaRemedy)};
     }
     if (eglBindAPI(EGL_OPENGL_API) != EGL_TRUE) {
         return eglError("eglBindAPI(EGL_OPENGL_API)" + where, kMesaRemedy);
     }
-    if (!inList(extensions, "EGL_KHR_no_config_context") && !inList(extensions, "EGL_MESA_configless_context")) {
+    if (!inEglList(extensions, "EGL_KHR_no_config_context") && !inEglList(extensions, "EGL_MESA_configless_context")) {
         const std::array<EGLint, 5> wanted{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,
                                            EGL_NONE};
         EGLint found = 0;
@@ -123,14 +113,32 @@ Result<std::shared_ptr<EglDisplay>> EglDisplay::initialise(EGLDisplay display, s
     return opened;
 }
 
+Result<std::shared_ptr<EglDisplay>> EglDisplay::openDevice(std::size_t index) {
+    const std::vector<EGLDeviceEXT> devices = listEglDevices();
+    if (index >= devices.size()) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, kGlDeviceVariable,
+                     fmt::format("there is no EGL device {}; EGL lists {}", index, devices.size()),
+                     "see the list of EGL devices in 'sluice probe', or unset the variable"};
+    }
+    return initialise(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, devices[index], nullptr),
+                      fmt::format("device {}", index));
+}
+
 Result<std::shared_ptr<EglDisplay>> EglDisplay::open() {
     const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
-    if (!inList(client, "EGL_EXT_platform_base")) {
+    if (!inEglList(client, "EGL_EXT_platform_base")) {
         return Error{SLUICE_ERROR_UNSUPPORTED, "EGL client library", "EGL_EXT_platform_base is missing",
                      std::string(kMesaRemedy)};
     }
+    const Result<GlDeviceChoice> choice = glDeviceFromEnvironment();
+    if (!choice) {
+        return choice.error();
+    }
+    if (choice.value()) {
+        return openDevice(*choice.value());
+    }
     std::string tried;
-    if (inList(client, "EGL_MESA_platform_surfaceless")) {
+    if (inEglList(client, "EGL_MESA_platform_surfaceless")) {
         auto opened = initialise(eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr),
                                  "surfaceless");
         if (opened.ok()) {
@@ -140,17 +148,16 @@ Result<std::shared_ptr<EglDisplay>> EglDisplay::open() {
     } else {
         tried = "EGL_MESA_platform_surfaceless is missing";
     }
-    const bool can_list = inList(client, "EGL_EXT_device_enumeration") || inList(client, "EGL_EXT_device_base");
-    if (can_list && inList(client, "EGL_EXT_platform_device")) {
-        for (EGLDeviceEXT device : devices()) {
-            auto opened = initialise(eglGetPlatformDisplayEXT(EGL_PLATFORM_DEVICE_EXT, device, nullptr), "device");
-            if (opened.ok()) {
-                return opened;
-            }
-            tried += "; " + opened.error().message();
+    const std::size_t count = listEglDevices().size();
+    for (std::size_t i = 0; i < count; ++i) {
+        auto opened = openDevice(i);
+        if (opened.ok()) {
+            return opened;
         }
-    } else {
-        tried += "; EGL_EXT_platform_device is missing";
+        tried += "; " + opened.error().message();
+    }
+    if (count == 0) {
+        tried += "; EGL lists no devices";
     }
     return Error{SLUICE_ERROR_UNSUPPORTED, "EGL display without a window", tried, std::string(kMesaRemedy)};
 }

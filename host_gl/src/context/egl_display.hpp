@@ -4,6 +4,7 @@
 
 #include <epoxy/egl.h>
 
+#include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,8 +18,8 @@ namespace sluice::host {
 /// Thread-safe to create and destroy.
 class EglDisplay {
   public:
-    /// The surfaceless platform of Mesa, else the first device of EGL_EXT_platform_device that has desktop OpenGL and
-    /// surfaceless contexts.
+    /// What SLUICE_GL_DEVICE asks for. By default the surfaceless platform of Mesa, else the first device of
+    /// EGL_EXT_platform_device that has desktop OpenGL and surfaceless contexts.
     [[nodiscard]] static Result<std::shared_ptr<EglDisplay>> open();
     EglDisplay(const EglDisplay&) = delete;
     EglDisplay& operator=(const EglDisplay&) = delete;
@@ -30,6 +31,7 @@ class EglDisplay {
 
   private:
     EglDisplay(EGLDisplay display, EGLConfig config) : display_(display), config_(config) {}
+    static Result<std::shared_ptr<EglDisplay>> openDevice(std::size_t index);
     static Result<std::shared_ptr<EglDisplay>> initialise(EGLDisplay display, std::string_view platform);
 
     EGLDisplay display_;
