@@ -55,27 +55,51 @@ void drawStamp(const Screen& screen, std::uint64_t frame, int layers) {
     glDisable(GL_DEPTH_TEST);
 }
 
+namespace {
+
+bool holdsColour(const Stamp& stamp, const float* texel) {
+    for (std::size_t c = 0; c < 4; ++c) {
+        if (std::abs(texel[c] - static_cast<float>(stamp.colour.at(c)) / 255.0F) >= 0.5F / 255.0F) {
+            return false;
+        }
+    }
+    return true;
+}
+
+bool holdsDepth(const Stamp& stamp, float depth) {
+    // Two units of 24-bit depth: one for the rasteriser, one for the copy to float.
+    return std::abs(depth - stamp.depth) < 1.8e-7F;
+}
+
+}  // namespace
+
 Verdict inspect(const FluidHost& host, std::uint64_t frame) {
-    const SluiceRendererInfo& info = host.info();
-    const Pixels colour = readTexture(host.texture(SLUICE_IMAGE_FLUID_COLOUR),
-                                      static_cast<SluiceFormat>(info.formats[SLUICE_IMAGE_FLUID_COLOUR]), info.width,
-                                      info.height, nullptr);
-    const Pixels depth = readTexture(host.texture(SLUICE_IMAGE_FLUID_DEPTH),
-                                     static_cast<SluiceFormat>(info.formats[SLUICE_IMAGE_FLUID_DEPTH]), info.width,
-                                     info.height, nullptr);
-    const std::array<Stamp, 2> stamps{stampOf(frame, 0), stampOf(frame, 1)};
+    return inspect(host.info(), host.texture(SLUICE_IMAGE_FLUID_COLOUR), host.texture(SLUICE_IMAGE_FLUID_DEPTH), frame);
+}
+
+Verdict inspect(const SluiceRendererInfo& info, std::uint32_t colour_texture, std::uint32_t depth_texture,
+                std::uint64_t frame) {
+    const Pixels colour =
+        readTexture(colour_texture, static_cast<SluiceFormat>(info.formats[SLUICE_IMAGE_FLUID_COLOUR]), info.width,
+                    info.height, nullptr);
+    const Pixels depth = readTexture(depth_texture, static_cast<SluiceFormat>(info.formats[SLUICE_IMAGE_FLUID_DEPTH]),
+                                     info.width, info.height, nullptr);
     Verdict verdict;
     verdict.texels = depth.values.size();
     for (std::size_t i = 0; i < depth.values.size(); ++i) {
-        const Stamp& stamp = stamps.at(i % info.width < middle(info.width) ? 0U : 1U);
-        bool right = true;
-        for (std::size_t c = 0; c < 4; ++c) {
-            const float expected = static_cast<float>(stamp.colour.at(c)) / 255.0F;
-            right = right && std::abs(colour.values[4 * i + c] - expected) < 0.5F / 255.0F;
+        const int half = i % info.width < middle(info.width) ? 0 : 1;
+        const Stamp stamp = stampOf(frame, half);
+        const float* texel = &colour.values[4 * i];
+        const bool colour_right = holdsColour(stamp, texel);
+        const bool depth_right = holdsDepth(stamp, depth.values[i]);
+        verdict.wrong_colour += colour_right ? 0U : 1U;
+        verdict.wrong_depth += depth_right ? 0U : 1U;
+        bool stale = false;
+        for (std::uint64_t earlier = 1; earlier < frame && !stale && !(colour_right && depth_right); ++earlier) {
+            const Stamp old = stampOf(earlier, half);
+            stale = holdsColour(old, texel) && holdsDepth(old, depth.values[i]);
         }
-        verdict.wrong_colour += right ? 0U : 1U;
-        // Two units of 24-bit depth: one for the rasteriser, one for the copy to float.
-        verdict.wrong_depth += std::abs(depth.values[i] - stamp.depth) < 1.8e-7F ? 0U : 1U;
+        verdict.stale += stale ? 1U : 0U;
     }
     return verdict;
 }

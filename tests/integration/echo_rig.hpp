@@ -35,9 +35,14 @@ void drawStamp(const Screen& screen, std::uint64_t frame, int layers);
 /// Texels of the fluid images that do not hold the stamp of `frame`.
 struct Verdict {
     std::size_t wrong_colour = 0, wrong_depth = 0, texels = 0;
+    /// Texels whose colour and depth are both those of an earlier frame, a subset of the wrong ones.
+    std::size_t stale = 0;
     [[nodiscard]] bool clean() const { return wrong_colour == 0 && wrong_depth == 0; }
 };
 [[nodiscard]] Verdict inspect(const FluidHost& host, std::uint64_t frame);
+/// The same of any two textures of the fluid images' size and formats.
+[[nodiscard]] Verdict inspect(const SluiceRendererInfo& info, std::uint32_t colour, std::uint32_t depth,
+                              std::uint64_t frame);
 
 /// A frame that asks for SLUICE_VIEW_ECHO.
 [[nodiscard]] FrameInput echoInput();

@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint64_t kFrames = 1000;
 constexpr int kLayers = 24;
 
+/// A bad frame is stale if every texel is that of one or more earlier frames, else torn (or never written).
 struct Tally {
     std::uint64_t frames = 0, bad = 0, stale = 0, torn = 0;
 };
@@ -35,7 +36,7 @@ class HandOffTest : public EchoTest {
             ASSERT_EQ(verdict.texels, std::size_t{kEchoWidth} * kEchoHeight);
             ++tally.frames;
             tally.bad += verdict.clean() ? 0U : 1U;
-            const bool whole = verdict.wrong_colour == verdict.texels;
+            const bool whole = verdict.stale == verdict.texels;
             tally.stale += whole ? 1U : 0U;
             tally.torn += !verdict.clean() && !whole ? 1U : 0U;
         }
@@ -76,7 +77,7 @@ TEST_F(HandOffTest, TheSameBodyWithoutWaitsSeesBadFrames) {
         ASSERT_NO_FATAL_FAILURE(run(100, layers, SLUICE_FRAME_SKIP_WAIT, tally));
     }
     EXPECT_GT(tally.bad, 0U);
-    std::printf("without waits: %llu of %llu frames bad (%llu whole, %llu torn)\n",
+    std::printf("without waits: %llu of %llu frames bad (%llu stale, %llu torn)\n",
                 static_cast<unsigned long long>(tally.bad), static_cast<unsigned long long>(tally.frames),
                 static_cast<unsigned long long>(tally.stale), static_cast<unsigned long long>(tally.torn));
 }

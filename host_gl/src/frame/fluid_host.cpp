@@ -22,6 +22,7 @@
 #include "share/sized.hpp"
 #include "sluice/format.hpp"
 #include "sluice/host_gl/context.hpp"
+#include "timeline/fallback.hpp"
 #include "timeline/host_timeline.hpp"
 #include "timeline/timeline_events.hpp"
 
@@ -37,12 +38,12 @@ std::uint64_t texelBytes(std::uint32_t format) {
     return info != nullptr ? info->bytes_per_texel : 0;
 }
 
-SluiceCreateInfo createInfo(const FluidHostConfig& config) {
+SluiceCreateInfo createInfo(const FluidHostConfig& config, SluiceTimelineKind timeline) {
     SluiceCreateInfo info = sized<SluiceCreateInfo>();
     info.width = config.width;
     info.height = config.height;
     info.image_sets = config.image_sets;
-    info.timeline = config.timeline;
+    info.timeline = timeline;
     info.validation = config.validation ? 1 : 0;
     info.outputs = config.outputs;
     info.host_depth_format = config.host_depth;
@@ -57,10 +58,10 @@ class FluidHostImpl final : public FluidHost {
     FluidHostImpl(const FluidHostImpl&) = delete;
     FluidHostImpl& operator=(const FluidHostImpl&) = delete;
     ~FluidHostImpl() override {
-        // The bridge may still owe values that the renderer's queue waits for, so it drains before the renderer goes.
-        timeline_.reset();
-        renderer_ = Renderer{};
-        services_.images().clear();
+        // GL's own signals must have landed before the renderer is asked to end: its queue may wait for them, and it
+        // cannot know whether they are late or lost. The last frame's passes have ended then, too.
+        finishGl();
+        close();
     }
 
     [[nodiscard]] Status start(const PluginLibrary& library);
@@ -77,13 +78,24 @@ class FluidHostImpl final : public FluidHost {
     [[nodiscard]] Status composite(const Screen& screen) override;
     [[nodiscard]] std::uint64_t frame() const override { return submitted_; }
     [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame) override {
-        return renderer_.stats(frame, config_.wait_timeout_ns);
+        Result<SluiceFrameStats> stats = renderer_.stats(frame, config_.wait_timeout_ns);
+        noteLoss(stats ? 0 : stats.error().code);
+        timer_.collect();
+        return stats;
     }
     [[nodiscard]] std::uint32_t texture(SluiceImageRole role) const override {
         return services_.images().texture(role, submitted_ == 0 ? 0 : imageSetOf(submitted_, info_.image_sets));
     }
 
   private:
+    /// Renderer, images and timeline. `stage` tells how far it came.
+    enum class Stage : std::uint8_t { Renderer, Timeline, Done };
+    [[nodiscard]] Status open(const PluginLibrary& library, SluiceTimelineKind timeline, Stage& stage);
+    void close();
+    /// Remembers that the device is lost: from then on no GL wait is recorded for it (docs/protocol.md).
+    void noteLoss(std::int32_t code) { lost_ = lost_ || code == SLUICE_ERROR_DEVICE_LOST; }
+    /// Waits until the GL command stream has ended and records its passes.
+    void finishGl();
     [[nodiscard]] Status adoptImages();
     [[nodiscard]] Status checkScreen(const Screen& screen, const char* call) const;
     void capture(const Screen& screen, const SluiceCamera& camera, std::uint64_t frame);
@@ -102,13 +114,12 @@ class FluidHostImpl final : public FluidHost {
     std::uint64_t submitted_ = 0;  ///< the last frame that the renderer accepted
     bool composable_ = false;      ///< that frame waits for its composite
     bool usable_ = false;          ///< false after a failed resize
+    bool lost_ = false;            ///< the renderer has said that its device is lost
 };
 
-Status FluidHostImpl::start(const PluginLibrary& library) {
-    if (Status status = checkDrawable(); !status) {
-        return status;
-    }
-    Result<Renderer> renderer = Renderer::create(library.api(), services_.table(), createInfo(config_));
+Status FluidHostImpl::open(const PluginLibrary& library, SluiceTimelineKind timeline, Stage& stage) {
+    stage = Stage::Renderer;
+    Result<Renderer> renderer = Renderer::create(library.api(), services_.table(), createInfo(config_, timeline));
     if (!renderer) {
         return renderer.error();
     }
@@ -117,22 +128,58 @@ Status FluidHostImpl::start(const PluginLibrary& library) {
         return status;
     }
     sets_.emplace(info_.image_sets, services_.images(), config_.trace);
-    Result<Compositor> compositor = Compositor::create();
-    if (!compositor) {
-        return compositor.error();
-    }
-    compositor_ = std::move(compositor).value();
+    stage = Stage::Timeline;
     TimelineDeps deps;
     deps.api = &renderer_.api();
     deps.renderer = renderer_.handle();
     deps.trace = config_.trace;
     deps.log = [this](SluiceLogLevel level, std::string_view text) { services_.log(level, text); };
-    Result<std::unique_ptr<HostTimeline>> timeline =
+    Result<std::unique_ptr<HostTimeline>> made =
         makeHostTimeline(static_cast<SluiceTimelineKind>(info_.timeline), deps);
-    if (!timeline) {
-        return timeline.error();
+    if (!made) {
+        return made.error();
     }
-    timeline_ = std::move(timeline).value();
+    timeline_ = std::move(made).value();
+    stage = Stage::Done;
+    return {};
+}
+
+void FluidHostImpl::close() {
+    // The bridge may still owe values that the renderer's queue waits for, so it drains before the renderer goes.
+    timeline_.reset();
+    renderer_ = Renderer{};
+    services_.images().clear();
+}
+
+Status FluidHostImpl::start(const PluginLibrary& library) {
+    if (Status status = checkDrawable(); !status) {
+        return status;
+    }
+    Result<Compositor> compositor = Compositor::create();
+    if (!compositor) {
+        return compositor.error();
+    }
+    compositor_ = std::move(compositor).value();
+    Stage stage{};
+    Status status = open(library, config_.timeline, stage);
+    if (stage == Stage::Timeline && config_.timeline == SLUICE_TIMELINE_AUTO) {
+        // Extensions that are advertised may still fail between two drivers. Only the next kind's renderer has the
+        // semaphores that the next kind needs, so the renderer starts anew as well.
+        auto failed = static_cast<SluiceTimelineKind>(info_.timeline);
+        for (const SluiceTimelineKind next : timelinesAfter(failed)) {
+            services_.log(SLUICE_LOG_WARNING, fmt::format("timeline {} failed at start-up, {} is next: {}",
+                                                          toString(failed), toString(next), status.error().message()));
+            close();
+            failed = next;
+            status = open(library, next, stage);
+            if (status) {
+                break;
+            }
+        }
+    }
+    if (!status) {
+        return status;
+    }
     usable_ = true;
     services_.log(SLUICE_LOG_INFO,
                   fmt::format("renderer {} {}: {} image sets of {}x{}, timeline {}", renderer_.api().name,
@@ -161,12 +208,22 @@ Status FluidHostImpl::adoptImages() {
     return {};
 }
 
+void FluidHostImpl::finishGl() {
+    const bool on_gpu = timeline_ != nullptr &&
+                        (timeline_->kind() == SLUICE_TIMELINE_NATIVE || timeline_->kind() == SLUICE_TIMELINE_BINARY);
+    // A GL wait that was recorded before the device was lost might never end.
+    if (!(lost_ && on_gpu)) {
+        glFinish();
+    }
+    timer_.collect();
+}
+
 Status FluidHostImpl::resize(std::uint32_t width, std::uint32_t height) {
     if (Status status = checkExtent(width, height); !status) {
         return status;
     }
     // Nothing of the old images may be in use on this side either.
-    glFinish();
+    finishGl();
     usable_ = false;
     composable_ = false;
     Status status = renderer_.resize(width, height);
@@ -188,6 +245,10 @@ Status FluidHostImpl::checkScreen(const Screen& screen, const char* call) const 
     if (!usable_) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, call, "the renderer has no images since the last resize failed",
                      "resize again, or destroy the FluidHost"};
+    }
+    if (lost_) {
+        return Error{SLUICE_ERROR_DEVICE_LOST, call, "the renderer has lost its device",
+                     "destroy the FluidHost and create it again"};
     }
     if (screen.width() != info_.width || screen.height() != info_.height) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, call,
@@ -244,6 +305,7 @@ Status FluidHostImpl::submit(const Screen& screen, const FrameInput& input) {
     const std::vector<std::uint32_t> textures = services_.images().textures(imageSetOf(frame, info_.image_sets));
     if (const std::uint64_t owed = sets_->owedBefore(frame); owed != 0) {
         if (Status status = timeline_->wait(owed, config_.wait_timeout_ns, textures); !status) {
+            noteLoss(status.error().code);
             return status;
         }
         sets_->reached(owed);
@@ -262,6 +324,7 @@ Status FluidHostImpl::submit(const Screen& screen, const FrameInput& input) {
         return status;
     }
     if (Status status = callRenderer(input, frame); !status) {
+        noteLoss(status.error().code);
         sets_->abandoned(frame);
         return status;
     }
@@ -287,6 +350,7 @@ Status FluidHostImpl::composite(const Screen& screen) {
     const std::uint32_t set = imageSetOf(frame, info_.image_sets);
     const std::vector<std::uint32_t> textures = images.textures(set);
     if (Status status = timeline_->wait(fluidWritten(frame), config_.wait_timeout_ns, textures); !status) {
+        noteLoss(status.error().code);
         return status;
     }
     sets_->reached(fluidWritten(frame));
@@ -300,9 +364,9 @@ Status FluidHostImpl::composite(const Screen& screen) {
     compositor_.draw(screen.framebuffer(), info_.width, info_.height, images.texture(SLUICE_IMAGE_FLUID_COLOUR, set),
                      images.texture(SLUICE_IMAGE_FLUID_DEPTH, set));
     timer_.end();
-    // The picture is drawn, and the next odd value implies this one, so a failure here is news but not a failed
-    // composite.
-    if (const Status status = timeline_->signal(compositeRead(frame), textures); !status) {
+    // No texture is named: the set stays with GL until the next odd value gives it away (docs/protocol.md). The picture
+    // is drawn, and that value implies this one, so a failure here is news but not a failed composite.
+    if (const Status status = timeline_->signal(compositeRead(frame), {}); !status) {
         services_.log(SLUICE_LOG_WARNING, status.error().message());
     }
     return sets_->endComposite(frame);

@@ -39,7 +39,8 @@ struct FrameInput {
 };
 
 /// Owns one renderer, the imported images and the host's end of the timelines. Not thread-safe; every call needs the GL
-/// context of create() current. Every call leaves the GL state as it found it.
+/// context of create() current, and so does destruction, which waits until GL has finished. Every call leaves the GL
+/// state as it found it.
 class FluidHost {
   public:
     [[nodiscard]] static Result<std::unique_ptr<FluidHost>> create(const PluginLibrary& library,

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// The real renderer behind a table that fails where a test asks it to. One renderer at a time.
+#include "plugins/shim.hpp"
+
+#include <dlfcn.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "sluice/plugin.h"
+
+using sluice::host::test::ShimControl;
+
+#define SLUICE_SHIM_EXPORT __attribute__((visibility("default")))
+
+extern "C" {
+SLUICE_SHIM_EXPORT extern ShimControl sluice_shim_control;
+ShimControl sluice_shim_control;
+}
+
+namespace {
+
+SluiceRendererApi table;
+const SluiceRendererApi* real = nullptr;
+std::uint32_t claimed = SLUICE_TIMELINE_AUTO;  // AUTO: nothing but the truth
+
+bool has(std::uint32_t bits, std::uint32_t kind) {
+    return (bits >> kind & 1U) != 0;
+}
+
+SluiceResult refuse(SluiceError* error, SluiceResult code, const char* why) {
+    if (error != nullptr) {
+        error->code = code;
+        std::snprintf(&error->message[0], sizeof(error->message), "%s", why);
+    }
+    return code;
+}
+
+SluiceResult create(const SluiceHostServices* host, const SluiceCreateInfo* info, SluiceRenderer** renderer,
+                    SluiceError* error) {
+    ShimControl& control = sluice_shim_control;
+    if (control.attempt_count < control.attempts.size()) {
+        control.attempts.at(control.attempt_count) = info->timeline;
+    }
+    ++control.attempt_count;
+    if (has(control.refuses, info->timeline)) {
+        *renderer = nullptr;
+        return refuse(error, SLUICE_ERROR_UNSUPPORTED, "the shim refuses this timeline");
+    }
+    claimed = info->timeline;
+    if (claimed == SLUICE_TIMELINE_AUTO && has(control.lies, SLUICE_TIMELINE_NATIVE)) {
+        claimed = SLUICE_TIMELINE_NATIVE;
+    }
+    SluiceCreateInfo changed = *info;
+    if (has(control.lies, claimed)) {
+        changed.timeline = SLUICE_TIMELINE_BRIDGED;
+    } else {
+        claimed = SLUICE_TIMELINE_AUTO;
+    }
+    return real->create(host, &changed, renderer, error);
+}
+
+SluiceResult info(SluiceRenderer* renderer, SluiceRendererInfo* out) {
+    const SluiceResult result = real->info(renderer, out);
+    if (result == SLUICE_OK && claimed != SLUICE_TIMELINE_AUTO) {
+        out->timeline = claimed;
+    }
+    return result;
+}
+
+SluiceResult submitFrame(SluiceRenderer* renderer, const SluiceFrame* frame, SluiceError* error) {
+    ++sluice_shim_control.submits;
+    if (frame->frame == sluice_shim_control.lose_submit) {
+        return refuse(error, SLUICE_ERROR_DEVICE_LOST, "the shim has lost its device");
+    }
+    return real->submit_frame(renderer, frame, error);
+}
+
+SluiceResult poll(SluiceRenderer* renderer, std::uint64_t frame, SluiceFrameStats* stats) {
+    return frame == sluice_shim_control.lose_poll ? SLUICE_ERROR_DEVICE_LOST : real->poll(renderer, frame, stats);
+}
+
+SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns) {
+    ++sluice_shim_control.waits;
+    return sluice_shim_control.drop_host_wait ? SLUICE_OK : real->timeline_wait(renderer, value, timeout_ns);
+}
+
+void destroy(SluiceRenderer* renderer) {
+    sluice_shim_control.destroys += renderer != nullptr ? 1 : 0;
+    real->destroy(renderer);
+}
+
+}  // namespace
+
+extern "C" SLUICE_SHIM_EXPORT const SluiceRendererApi* sluice_renderer_entry(std::uint32_t abi_version) {
+    // Kept open for as long as the process lives: the table that it gave away points into it.
+    void* library = dlopen(SLUICE_REAL_RENDERER, RTLD_NOW | RTLD_LOCAL);
+    void* symbol = library != nullptr ? dlsym(library, SLUICE_RENDERER_ENTRY_SYMBOL) : nullptr;
+    if (symbol == nullptr) {
+        return nullptr;
+    }
+    real = reinterpret_cast<SluiceRendererEntry>(symbol)(abi_version);
+    if (real == nullptr) {
+        return nullptr;
+    }
+    table = *real;
+    table.struct_size = std::min<std::uint32_t>(real->struct_size, sizeof(table));
+    table.create = create;
+    table.info = info;
+    table.submit_frame = submitFrame;
+    table.poll = poll;
+    table.timeline_wait = timelineWait;
+    table.destroy = destroy;
+    return &table;
+}

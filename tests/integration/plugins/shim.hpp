@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+// What a test may ask of the shim renderer.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace sluice::host::test {
+
+constexpr const char* kShimControlSymbol = "sluice_shim_control";
+
+/// Everything zero: the real renderer, unchanged. The GL thread alone touches it.
+struct ShimControl {
+    std::uint32_t lies = 0;           ///< bit per SluiceTimelineKind: claimed without semaphores, bridged underneath
+    std::uint32_t refuses = 0;        ///< bit per SluiceTimelineKind: create fails when it is asked for
+    std::uint64_t lose_submit = 0;    ///< submit_frame of this frame says that the device is lost
+    std::uint64_t lose_poll = 0;      ///< poll of this frame says so
+    bool drop_host_wait = false;      ///< timeline_wait returns at once
+    std::uint32_t waits = 0;          ///< calls of timeline_wait
+    std::uint32_t submits = 0;        ///< calls of submit_frame
+    std::uint32_t destroys = 0;       ///< calls of destroy with a renderer
+    std::uint32_t attempt_count = 0;  ///< calls of create
+    std::array<std::uint32_t, 8> attempts{};  ///< SluiceTimelineKind of each
+};
+
+}  // namespace sluice::host::test

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: MIT
+#include "shim_rig.hpp"
+
+#include <dlfcn.h>
+
+namespace sluice::host::test {
+
+void ShimTest::SetUp() {
+    ASSERT_NO_FATAL_FAILURE(EchoTest::SetUp());
+    Result<PluginLibrary> library = PluginLibrary::load(SLUICE_SHIM_RENDERER);
+    ASSERT_TRUE(library) << library.error().message();
+    library_.emplace(std::move(library).value());
+    void* handle = dlopen(SLUICE_SHIM_RENDERER, RTLD_NOW | RTLD_NOLOAD);
+    ASSERT_NE(handle, nullptr);
+    control_ = static_cast<ShimControl*>(dlsym(handle, kShimControlSymbol));
+    dlclose(handle);  // library_ still holds it
+    ASSERT_NE(control_, nullptr);
+    *control_ = ShimControl{};
+}
+
+void ShimTest::frameIsClean() {
+    const std::uint64_t frame = host_->frame() + 1;
+    drawStamp(*screen_, frame, 4);
+    const Status submitted = host_->submit(*screen_, echoInput());
+    ASSERT_TRUE(submitted) << submitted.error().message();
+    const Status composited = host_->composite(*screen_);
+    ASSERT_TRUE(composited) << composited.error().message();
+    EXPECT_TRUE(inspect(*host_, frame).clean());
+}
+
+}  // namespace sluice::host::test
