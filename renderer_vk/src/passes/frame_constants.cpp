@@ -67,7 +67,7 @@ FrameConstants makeFrameConstants(const SluiceFrame& frame, const Plan& plan, co
 }
 
 float nearestPointDepth(const FrameConstants& block, float widest) {
-    const double r = double{block.focal[2]};
+    const auto r = double{block.focal[2]};
     // Between the tangents at distance s = |(x, depth)| lie 2 r sqrt(s^2 - r^2) / (depth^2 - r^2) of slope (the
     // difference of the two bounds in shaders/common/splat.glsl); x is at most where the sphere still touches the
     // picture's edge.

@@ -78,7 +78,7 @@ Result<SplatPipelines> splatPipelines(const Device& device, SplatDesc desc, bool
 /// Decides whether the indirect draw of triangles has any vertices in this frame.
 void findNear(const PassContext& context, const Pipeline& pipeline) {
     constexpr VkDrawIndirectCommand kNone{0, 1, 0, 0};
-    const VkBuffer near_draw = context.images.near_draw.buffer();
+    VkBuffer near_draw = context.images.near_draw.buffer();
     context.device.fn.vkCmdUpdateBuffer(context.commands, near_draw, 0, sizeof kNone, &kNone);
     order(context, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
           VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
