@@ -7,11 +7,12 @@
 #include <cmath>
 
 #include "image/colour.hpp"
+#include "sluice/plugin.h"
 
 namespace sluice::cli {
 namespace {
 
-constexpr int kMaxSide = 16384;  ///< a map of that size is 3 GiB in floats; larger is a mistake
+constexpr int kMaxSide = SLUICE_MAX_EXTENT;  ///< a map of that size is 3 GiB in floats; larger is a mistake
 
 Error bad(const std::filesystem::path& path, std::string detail, std::string remedy) {
     return Error{SLUICE_ERROR_INVALID_ARGUMENT, path.string(), std::move(detail), std::move(remedy)};

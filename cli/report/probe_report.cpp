@@ -8,6 +8,7 @@
 
 #include "report/table.hpp"
 #include "sluice/format.hpp"
+#include "sluice/uuid.hpp"
 
 namespace sluice::cli {
 namespace {
@@ -16,14 +17,6 @@ using Json = nlohmann::ordered_json;
 
 const char* yes(bool value) {
     return value ? "yes" : "-";
-}
-
-std::string uuid(std::span<const std::uint8_t> bytes) {
-    std::string text;
-    for (const std::uint8_t byte : bytes) {
-        text += fmt::format("{:02x}", byte);
-    }
-    return text;
 }
 
 /// VK_API_VERSION_MAJOR and so on, which this program has no Vulkan header for.
@@ -57,15 +50,15 @@ std::string sides(const ProbeResult& probe) {
     const SluiceHostCapabilities& gl = probe.gl;
     std::string text = fmt::format("OpenGL    {} / {} / {}\n", gl.vendor, gl.renderer, gl.version);
     for (std::uint32_t i = 0; i < std::min(gl.device_uuid_count, SLUICE_MAX_DEVICE_UUIDS); ++i) {
-        text += fmt::format("          device UUID {}\n", uuid(gl.device_uuids[i]));
+        text += fmt::format("          device UUID {}\n", uuidText(gl.device_uuids[i]));
     }
-    text += fmt::format("          driver UUID {}\n", uuid(gl.driver_uuid));
+    text += fmt::format("          driver UUID {}\n", uuidText(gl.driver_uuid));
     if (probe.vk) {
         const SluiceRendererCapabilities& vk = *probe.vk;
         text += fmt::format("Vulkan    {} / {} / {} / {}\n", vk.device_name, vk.driver_name, vk.driver_info,
                             vulkanVersion(vk.api_version));
-        text += fmt::format("          device UUID {}\n          driver UUID {}\n", uuid(vk.device_uuid),
-                            uuid(vk.driver_uuid));
+        text += fmt::format("          device UUID {}\n          driver UUID {}\n", uuidText(vk.device_uuid),
+                            uuidText(vk.driver_uuid));
         text += fmt::format("          {} queue families, {} queues\n", vk.queue_families, vk.queues);
         text +=
             fmt::format("verdict   {}\n", probe.same_device ? "one device and one driver: memory can be shared"
@@ -130,13 +123,13 @@ Json abilitiesJson(const std::vector<Ability>& abilities) {
 Json glJson(const SluiceHostCapabilities& gl) {
     Json uuids = Json::array();
     for (std::uint32_t i = 0; i < std::min(gl.device_uuid_count, SLUICE_MAX_DEVICE_UUIDS); ++i) {
-        uuids.push_back(uuid(gl.device_uuids[i]));
+        uuids.push_back(uuidText(gl.device_uuids[i]));
     }
     return {{"vendor", gl.vendor},
             {"renderer", gl.renderer},
             {"version", gl.version},
             {"device_uuids", uuids},
-            {"driver_uuid", uuid(gl.driver_uuid)},
+            {"driver_uuid", uuidText(gl.driver_uuid)},
             {"abilities", abilitiesJson(glAbilities(gl))}};
 }
 
@@ -145,8 +138,8 @@ Json vkJson(const SluiceRendererCapabilities& vk) {
             {"driver", vk.driver_name},
             {"driver_info", vk.driver_info},
             {"api_version", vulkanVersion(vk.api_version)},
-            {"device_uuid", uuid(vk.device_uuid)},
-            {"driver_uuid", uuid(vk.driver_uuid)},
+            {"device_uuid", uuidText(vk.device_uuid)},
+            {"driver_uuid", uuidText(vk.driver_uuid)},
             {"queue_families", vk.queue_families},
             {"queues", vk.queues},
             {"abilities", abilitiesJson(vkAbilities(vk))}};

@@ -8,20 +8,14 @@
 #include <span>
 
 #include "sluice/format.hpp"
+#include "sluice/roles.hpp"
+#include "sluice/uuid.hpp"
 
 namespace sluice {
 
 namespace {
 
 using Reasons = std::vector<Reason>;
-
-constexpr std::uint32_t kFluidRoles =
-    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_COLOUR) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_DEPTH) |
-    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS);
-// Without these four there is no frame; the plan makes colour and depth whether or not they are listed as outputs.
-constexpr std::uint32_t kAlwaysShared =
-    SLUICE_ROLE_BIT(SLUICE_IMAGE_HOST_COLOUR) | SLUICE_ROLE_BIT(SLUICE_IMAGE_HOST_DEPTH) |
-    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_COLOUR) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_DEPTH);
 
 /// A count from across the ABI is bounded before it indexes anything.
 std::uint32_t deviceUuidCount(const SluiceHostCapabilities& gl) {
@@ -31,10 +25,6 @@ std::uint32_t deviceUuidCount(const SluiceHostCapabilities& gl) {
 /// All 16 bytes: real UUIDs contain zero bytes, at which a string comparison would stop.
 bool sameUuid(const std::uint8_t* a, const std::uint8_t* b) {
     return std::memcmp(a, b, SLUICE_UUID_SIZE) == 0;
-}
-
-std::string hex(const std::uint8_t* uuid) {
-    return fmt::format("{:02x}", fmt::join(std::span(uuid, SLUICE_UUID_SIZE), ""));
 }
 
 /// Index of the GL device UUID that the Vulkan device has, or the count if none.
@@ -63,12 +53,13 @@ Status checkDevice(const SluiceHostCapabilities& gl, const SluiceRendererCapabil
         remedy = "use an OpenGL driver with GL_EXT_memory_object";
     } else if (index == count) {
         why = fmt::format("none of the {} OpenGL device UUIDs (the first is {}, {}) equals {} of the Vulkan device {}",
-                          count, hex(gl.device_uuids[0]), text(gl.renderer), hex(vk.device_uuid), text(vk.device_name));
+                          count, uuidText(gl.device_uuids[0]), text(gl.renderer), uuidText(vk.device_uuid),
+                          text(vk.device_name));
         remedy =
             "run both APIs on one GPU: check DRI_PRIME, VK_DRIVER_FILES and the __NV_PRIME_RENDER_OFFLOAD variables";
     } else if (!sameUuid(gl.driver_uuid, vk.driver_uuid)) {
         why = fmt::format("device UUIDs are equal, but the OpenGL driver UUID is {} and the Vulkan one {}",
-                          hex(gl.driver_uuid), hex(vk.driver_uuid));
+                          uuidText(gl.driver_uuid), uuidText(vk.driver_uuid));
         remedy = "use the OpenGL and Vulkan drivers of one vendor and version";
     } else {
         reasons.push_back({"device", true,
@@ -273,7 +264,7 @@ Result<Agreement> negotiateInto(const SluiceHostCapabilities& gl, const SluiceRe
         return status.error();
     }
     Agreement agreement;
-    const std::uint32_t shared = kAlwaysShared | request.outputs;
+    const std::uint32_t shared = kAlwaysSharedRoles | request.outputs;
     for (std::uint32_t index = 0; index < SLUICE_IMAGE_CANARY; ++index) {
         const auto role = static_cast<SluiceImageRole>(index);
         if ((shared & SLUICE_ROLE_BIT(role)) == 0) {

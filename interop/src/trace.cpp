@@ -8,6 +8,8 @@
 #include <cstring>
 #include <ctime>
 
+#include "sluice/abi_sizes.hpp"
+
 namespace sluice {
 
 namespace {
@@ -15,18 +17,11 @@ namespace {
 // Keeps the counters that producers fight over apart from those of the consumer; 64 on every CPU we build for.
 constexpr std::size_t kCacheLine = 64;
 
-/// A copy that an older plugin's shorter struct fills as far as it goes; a missing field is zero.
-SluiceTraceEvent widened(const SluiceTraceEvent& event) {
-    SluiceTraceEvent copy{};
-    std::memcpy(&copy, &event, std::min<std::size_t>(event.struct_size, sizeof copy));
-    return copy;
-}
-
 /// Events of kinds that this side does not know cannot be kept truthfully.
 bool understood(const SluiceTraceEvent& event) {
     const bool timeline = event.kind == SLUICE_TRACE_SIGNAL || event.kind == SLUICE_TRACE_WAIT;
-    return event.struct_size >= offsetof(SluiceTraceEvent, begin_ns) && event.kind < SLUICE_TRACE_KIND_COUNT &&
-           event.track < SLUICE_TRACK_COUNT && (!timeline || event.direction <= SLUICE_RENDERER_TO_HOST);
+    return event.kind < SLUICE_TRACE_KIND_COUNT && event.track < SLUICE_TRACK_COUNT &&
+           (!timeline || event.direction <= SLUICE_RENDERER_TO_HOST);
 }
 
 TraceRecord toRecord(const SluiceTraceEvent& event) {
@@ -80,8 +75,9 @@ Trace::~Trace() = default;
 
 void Trace::record(const SluiceTraceEvent& event) {
     Ring& ring = *ring_;
-    const SluiceTraceEvent known = widened(event);
-    if (!understood(known)) {
+    const bool whole = event.struct_size >= kAbiMinimum<SluiceTraceEvent>;
+    const SluiceTraceEvent known = whole ? readAbiStruct(event) : SluiceTraceEvent{};
+    if (!whole || !understood(known)) {
         ring.dropped.fetch_add(1, std::memory_order_relaxed);
         return;
     }

@@ -36,11 +36,8 @@ EngineScene courtyard() {
 
 SluiceSky noon() {
     const glm::vec3 to_sun = glm::normalize(glm::vec3(-0.55F, 0.75F, 0.45F));
-    return {{0.16F, 0.36F, 0.78F},
-            {0.72F, 0.80F, 0.88F},
-            {0.35F, 0.31F, 0.26F},
-            {to_sun.x, to_sun.y, to_sun.z},
-            {20.0F, 18.0F, 15.0F}};
+    return {{0.16F, 0.36F, 0.78F},          {0.72F, 0.80F, 0.88F}, {0.35F, 0.31F, 0.26F},
+            {to_sun.x, to_sun.y, to_sun.z}, {20.0F, 18.0F, 15.0F}, {}};
 }
 
 struct View {
@@ -207,7 +204,8 @@ TEST_F(Engine, SkyIsTheFormulaWithinTwoSteps) {
 
 TEST(SkyFormula, HasTheValuesOfTheContract) {
     // By hand from plugin.h: overhead, at the horizon, a quarter down, and in the sun.
-    SluiceSky sky{{0.1F, 0.2F, 0.4F}, {0.5F, 0.6F, 0.7F}, {0.3F, 0.2F, 0.1F}, {0.0F, 0.6F, 0.8F}, {10.0F, 9.0F, 8.0F}};
+    SluiceSky sky{{0.1F, 0.2F, 0.4F}, {0.5F, 0.6F, 0.7F},  {0.3F, 0.2F, 0.1F},
+                  {0.0F, 0.6F, 0.8F}, {10.0F, 9.0F, 8.0F}, {}};
     EXPECT_FLOAT_EQ(skyRadiance(sky, {0.0F, 1.0F, 0.0F})[2], 0.4F);
     EXPECT_FLOAT_EQ(skyRadiance(sky, {1.0F, 0.0F, 0.0F})[0], 0.5F);
     EXPECT_FLOAT_EQ(skyRadiance(sky, {-std::sqrt(0.75F), 0.25F, -0.433F})[0], 0.3F);

@@ -68,9 +68,9 @@ constexpr Uuid kRadeonDriver{'A', 'M', 'D', '-', 'M', 'E', 'S', 'A', '-', 'D', '
 
 }  // namespace
 
-DriverPair mesa22Software() {
+DriverPair recordedMesa22Software() {
     DriverPair pair = named("llvmpipe and lavapipe 22.3.6",
-                            "measured on the reference platform, Debian 12 without a GPU (shared/probes/caps.cpp)");
+                            "recorded on the reference platform, Debian 12 without a GPU (shared/probes/caps.cpp)");
     setCommon(pair);
     setGlIdentity(pair, kLavapipeDevice, kLavapipeDriver);
     setVkIdentity(pair, kLavapipeDevice, kLavapipeDriver);
@@ -86,9 +86,9 @@ DriverPair mesa22Software() {
     return pair;
 }
 
-DriverPair nvidiaWithTimeline() {
+DriverPair assumedNvidiaWithTimeline() {
     DriverPair pair =
-        named("NVIDIA proprietary with GL_NV_timeline_semaphore", "from specifications and issue reports");
+        named("NVIDIA proprietary with GL_NV_timeline_semaphore", "assumed, from specifications and issue reports");
     setCommon(pair);
     setGlIdentity(pair, kNvidiaDevice, kNvidiaDriver);
     setVkIdentity(pair, kNvidiaDevice, kNvidiaDriver);
@@ -97,22 +97,21 @@ DriverPair nvidiaWithTimeline() {
     pair.vk.api_version = vulkan1(3, 277);
     pair.vk.queue_families = 3;
     pair.vk.queues = 16;
-    pair.vk.dedicated_required = kAllFormats;
     copyText(pair.gl.vendor, "NVIDIA Corporation");
     copyText(pair.vk.driver_name, "NVIDIA");
     return pair;
 }
 
-DriverPair nvidiaWithoutTimeline() {
-    DriverPair pair = nvidiaWithTimeline();
+DriverPair assumedNvidiaWithoutTimeline() {
+    DriverPair pair = assumedNvidiaWithTimeline();
     pair.name = "NVIDIA proprietary, older: GL_EXT_semaphore_fd only";
     pair.gl.has_timeline_semaphore = 0;
     pair.vk.api_version = vulkan1(3, 194);
     return pair;
 }
 
-DriverPair radeonMesa24() {
-    DriverPair pair = named("radeonsi and radv, Mesa 24", "from specifications and issue reports");
+DriverPair assumedRadeonMesa24() {
+    DriverPair pair = named("radeonsi and radv, Mesa 24", "assumed, from specifications and issue reports");
     setCommon(pair);
     setGlIdentity(pair, kRadeonDevice, kRadeonDriver);
     setVkIdentity(pair, kRadeonDevice, kRadeonDriver);
@@ -129,11 +128,11 @@ DriverPair radeonMesa24() {
     return pair;
 }
 
-DriverPair hybridLaptop() {
+DriverPair assumedHybridLaptop() {
     DriverPair pair = named("hybrid laptop: OpenGL on the AMD GPU, Vulkan on the NVIDIA one",
-                            "from specifications and issue reports");
-    const DriverPair radeon = radeonMesa24();
-    const DriverPair nvidia = nvidiaWithTimeline();
+                            "assumed, from specifications and issue reports");
+    const DriverPair radeon = assumedRadeonMesa24();
+    const DriverPair nvidia = assumedNvidiaWithTimeline();
     pair.gl = radeon.gl;
     pair.vk = nvidia.vk;
     return pair;

@@ -244,7 +244,7 @@ RC_GTEST_PROP(Negotiate, StrikingEveryChosenFormatEndsAfterFewRounds, ()) {
 }
 
 TEST(Negotiate, AnySingleFlippedUuidBitIsRefused) {
-    const auto pair = sluice::test::nvidiaWithTimeline();
+    const auto pair = sluice::test::assumedNvidiaWithTimeline();
     ASSERT_TRUE(sluice::negotiate(pair.gl, pair.vk, {}).ok());
     for (std::uint32_t bit = 0; bit < SLUICE_UUID_SIZE * 8; ++bit) {
         const auto flip = [bit](std::uint8_t* uuid) { uuid[bit / 8] ^= static_cast<std::uint8_t>(1U << (bit % 8)); };
@@ -263,7 +263,7 @@ TEST(Negotiate, AnySingleFlippedUuidBitIsRefused) {
 }
 
 TEST(Negotiate, RefusesARequestOutsideTheEnumeration) {
-    const auto pair = sluice::test::mesa22Software();
+    const auto pair = sluice::test::recordedMesa22Software();
     NegotiationRequest request;
     request.timeline = SLUICE_TIMELINE_KIND_COUNT;
     const auto result = sluice::negotiate(pair.gl, pair.vk, request);

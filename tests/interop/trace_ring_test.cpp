@@ -176,18 +176,19 @@ TEST(TraceRing, CopiesAndTruncatesTheName) {
     EXPECT_EQ(std::string(records[1].name.data()), "");
 }
 
-TEST(TraceRing, ReadsNoFurtherThanTheStructSizeOfAnOlderPlugin) {
+TEST(TraceRing, TakesLongerEventsOfANewerPluginAndNoneShorterThanOneDotZero) {
     Trace trace(4);
-    SluiceTraceEvent old = event(SLUICE_TRACE_SIGNAL, "not covered");
-    old.value = 9;
-    old.bytes = 77;
-    old.struct_size = offsetof(SluiceTraceEvent, bytes);
-    trace.record(old);
+    SluiceTraceEvent one = event(SLUICE_TRACE_SIGNAL, "newer");
+    one.value = 9;
+    one.struct_size = sizeof(SluiceTraceEvent) + 16;
+    trace.record(one);
+    one.struct_size = sizeof(SluiceTraceEvent) - 1;
+    trace.record(one);
     const auto records = trace.drain();
     ASSERT_EQ(records.size(), 1U);
     EXPECT_EQ(records[0].value, 9U);
-    EXPECT_EQ(records[0].bytes, 0U);
-    EXPECT_EQ(records[0].name[0], '\0');
+    EXPECT_EQ(std::string(records[0].name.data()), "newer");
+    EXPECT_EQ(trace.dropped(), 1U);
 }
 
 TEST(TraceRing, CountsEventsItCannotUnderstandAsDropped) {

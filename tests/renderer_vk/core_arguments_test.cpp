@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core_fake_host.hpp"
+#include "sluice/abi_sizes.hpp"
 
 namespace sluice::vk::test {
 namespace {
@@ -55,7 +56,7 @@ TEST(Arguments, CreateNeedsServicesThatShare) {
     host.mutableServices().share_image = nullptr;
     EXPECT_EQ(TestRenderer(host, info).result(), SLUICE_ERROR_INVALID_ARGUMENT);
     SluiceRenderer* renderer = nullptr;
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     EXPECT_EQ(api().create(nullptr, &info, &renderer, &error), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(api().create(host.services(), nullptr, &renderer, &error), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(api().create(host.services(), &info, nullptr, &error), SLUICE_ERROR_INVALID_ARGUMENT);
@@ -74,7 +75,7 @@ TEST(Arguments, AnErrorStructOfAnOlderHostIsNotOverrun) {
     FakeHost host;
     SluiceCreateInfo info = host.createInfo();
     info.width = 0;
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     error.struct_size = 16;  // header and 8 characters
     error.message[8] = '#';
     SluiceRenderer* renderer = nullptr;
@@ -84,11 +85,11 @@ TEST(Arguments, AnErrorStructOfAnOlderHostIsNotOverrun) {
 }
 
 TEST(Arguments, NullRenderersAreRefusedAndDestroyIgnoresThem) {
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     std::uint64_t value = 0;
     std::int32_t fd = -1;
-    SluiceRendererInfo info{};
-    SluiceFrameStats stats{};
+    auto info = sized<SluiceRendererInfo>();
+    auto stats = sized<SluiceFrameStats>();
     const SluiceFrame frame = frameOf(1, 2);
     const ParticleCloud cloud(3);
     EXPECT_EQ(api().info(nullptr, &info), SLUICE_ERROR_INVALID_ARGUMENT);
@@ -117,7 +118,7 @@ TEST_F(RendererArguments, BadFramesAreNamedAndTheNextGoodOneRuns) {
         std::function<void(SluiceFrame&)> damage;
     };
     const BadFrame cases[] = {
-        {"struct_size", [](auto& f) { f.struct_size = sizeof(SluiceFrame) - 4; }},
+        {"struct_size", [](auto& f) { f.struct_size = kAbiMinimum<SluiceFrame> - 1; }},
         {"frame.frame", [](auto& f) { f.frame = 0; }},
         {"without gaps", [](auto& f) { f.frame = 2; }},
         {"image_set", [](auto& f) { f.image_set = 1; }},
@@ -159,9 +160,9 @@ TEST_F(RendererArguments, AFailedFrameMayBeFollowedByTheNext) {
 
 TEST_F(RendererArguments, BadParticlesAreNamed) {
     ParticleCloud cloud(4);
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     const auto set = [&](const SluiceParticles* particles) {
-        error = {};
+        error = sized<SluiceError>();
         return api().set_particles(renderer.get(), particles, &error);
     };
     EXPECT_EQ(set(nullptr), SLUICE_ERROR_INVALID_ARGUMENT);
@@ -186,7 +187,7 @@ TEST_F(RendererArguments, BadParticlesAreNamed) {
 }
 
 TEST_F(RendererArguments, BadEnvironmentsAreNamed) {
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     const float pixels[12] = {};
     SluiceEnvironment environment{};
     environment.struct_size = sizeof(environment);
@@ -203,10 +204,10 @@ TEST_F(RendererArguments, BadEnvironmentsAreNamed) {
 }
 
 TEST_F(RendererArguments, OtherCallsCheckTheirs) {
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     std::uint64_t value = 0;
     std::int32_t fd = 7;
-    SluiceFrameStats stats{};
+    auto stats = sized<SluiceFrameStats>();
     EXPECT_EQ(api().resize(renderer.get(), 0, 10, &error), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(api().resize(renderer.get(), 10, 20000, &error), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(api().info(renderer.get(), nullptr), SLUICE_ERROR_INVALID_ARGUMENT);

@@ -28,8 +28,8 @@ std::unique_ptr<Device> anyDevice(bool validation = true) {
 TEST(Device, DescribeFillsWhatNegotiationNeeds) {
     FakeHost host;
     const SluiceCreateInfo info = host.createInfo();
-    SluiceRendererCapabilities found{};
-    SluiceError error{};
+    auto found = sized<SluiceRendererCapabilities>();
+    auto error = sized<SluiceError>();
     ASSERT_EQ(api().describe(host.services(), &info, &found, &error), SLUICE_OK) << error.message;
     EXPECT_EQ(found.struct_size, sizeof(found));
     EXPECT_EQ(std::memcmp(found.device_uuid, info.host.device_uuids[0], SLUICE_UUID_SIZE), 0);
@@ -48,8 +48,8 @@ TEST(Device, DescribeRefusesAForeignHost) {
     FakeHost host;
     SluiceCreateInfo info = host.createInfo();
     info.host.device_uuids[0][0] ^= 0xFFU;
-    SluiceRendererCapabilities found{};
-    SluiceError error{};
+    auto found = sized<SluiceRendererCapabilities>();
+    auto error = sized<SluiceError>();
     EXPECT_EQ(api().describe(host.services(), &info, &found, &error), SLUICE_ERROR_DEVICE_MISMATCH);
     EXPECT_EQ(error.code, SLUICE_ERROR_DEVICE_MISMATCH);
     EXPECT_THAT(error.message, HasSubstr("OpenGL has device"));
@@ -119,7 +119,7 @@ TEST_P(ProbeFormat, CrossesBetweenTwoDevicesBothWays) {
     SluiceCreateInfo info = host.createInfo();
     info.validation = 1;
     const std::size_t before = openDescriptors();
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     ASSERT_EQ(api().probe_format(host.services(), &info, GetParam().format, 67, 43, &error), SLUICE_OK)
         << error.message;
     EXPECT_EQ(host.canaries, 1);
@@ -132,7 +132,7 @@ TEST_P(ProbeFormat, AWrongTexelFromTheHostIsFound) {
     const SluiceCreateInfo info = host.createInfo();
     host.corrupt_canary_formats = formatBit(GetParam().format);
     const std::size_t before = openDescriptors();
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     EXPECT_EQ(api().probe_format(host.services(), &info, GetParam().format, 67, 43, &error), SLUICE_ERROR_CANARY);
     EXPECT_NE(error.message[0], '\0');
     EXPECT_EQ(openDescriptors(), before);

@@ -187,13 +187,29 @@ SluiceResult FakeHost::onShare(void* user, const SluiceImageExport* image, Sluic
         return SLUICE_ERROR_IMPORT;
     }
     ++self.shares;
-    ::close(image->fd);
+    UniqueFd mine(image->fd);
+    if (self.keep_descriptors) {
+        self.descriptors_[{image->role, image->image_set}] = std::move(mine);
+    }
     self.held_[{image->role, image->image_set}] = *image;
     return SLUICE_OK;
 }
 
 void FakeHost::onRetire(void* user, std::uint32_t role, std::uint32_t set) {
     static_cast<FakeHost*>(user)->held_.erase({role, set});
+    static_cast<FakeHost*>(user)->descriptors_.erase({role, set});
+}
+
+std::vector<std::byte> FakeHost::texels(SluiceImageRole role, std::uint32_t set) const {
+    const auto kept = descriptors_.find({role, set});
+    if (kept == descriptors_.end()) {
+        return {};
+    }
+    SluiceImageExport image = held_.at({role, set});
+    image.fd = kept->second.get();
+    Imported mine(*device_);
+    std::vector<std::byte> out(std::size_t{image.width} * image.height * findFormat(image.format)->bytes_per_texel);
+    return mine.import(image) && mine.copy(out, image, false) ? out : std::vector<std::byte>{};
 }
 
 SluiceResult FakeHost::onCanary(void* user, const SluiceImageExport* image, std::uint32_t seed, SluiceError* error) {

@@ -13,9 +13,26 @@
 
 #include "device/device.hpp"
 #include "plugin/api.hpp"
+#include "sluice/fd.hpp"
 #include "sluice/plugin.h"
 
 namespace sluice::vk::test {
+
+/// An empty T that says its size.
+template <typename T>
+[[nodiscard]] T sized() {
+    T value{};
+    value.struct_size = sizeof(T);
+    return value;
+}
+
+/// Sets the core's test switches for the devices created while it lives.
+struct Switched {
+    explicit Switched(const TestSwitches& switches) { setTestSwitches(switches); }
+    Switched(const Switched&) = delete;
+    Switched& operator=(const Switched&) = delete;
+    ~Switched() { setTestSwitches({}); }
+};
 
 /// A traced event with its name copied.
 struct SeenEvent {
@@ -42,6 +59,11 @@ class FakeHost {
     [[nodiscard]] std::vector<SeenEvent> events() const;
     [[nodiscard]] std::vector<std::string> log() const;
 
+    /// What a shared image holds now, rows bottom-up. The frame that wrote it has finished, and no later one has it.
+    /// Empty if it cannot be read.
+    [[nodiscard]] std::vector<std::byte> texels(SluiceImageRole role, std::uint32_t set) const;
+
+    bool keep_descriptors = false;             ///< before create: texels() will be asked for
     int fail_share_after = -1;                 ///< the n-th share_image fails; -1: none
     std::uint32_t fail_canary_formats = 0;     ///< bit per format: the host says that it saw wrong texels
     std::uint32_t corrupt_canary_formats = 0;  ///< bit per format: the host writes back a wrong pattern
@@ -58,6 +80,7 @@ class FakeHost {
     SluiceHostServices services_{};
     std::unique_ptr<Device> device_;
     std::map<std::pair<std::uint32_t, std::uint32_t>, SluiceImageExport> held_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, UniqueFd> descriptors_;
     mutable std::mutex lock_;
     std::vector<SeenEvent> events_;
     std::vector<std::string> log_;

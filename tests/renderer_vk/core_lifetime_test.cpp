@@ -2,10 +2,12 @@
 // Create, resize and destroy: what the host holds, which descriptors stay open, and that nothing hangs.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <chrono>
 
 #include "core_fake_host.hpp"
+#include "memory/image.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::vk::test {
@@ -21,7 +23,7 @@ TEST(Lifetime, CreateSharesEveryRoleOfEverySetAndDestroyTakesThemBack) {
     info.image_sets = 3;
     TestRenderer renderer(host, info);
     ASSERT_EQ(renderer.result(), SLUICE_OK) << renderer.error().message;
-    SluiceRendererInfo found{};
+    auto found = sized<SluiceRendererInfo>();
     ASSERT_EQ(api().info(renderer.get(), &found), SLUICE_OK);
     EXPECT_EQ(found.timeline, std::uint32_t{SLUICE_TIMELINE_BRIDGED});
     EXPECT_EQ(found.image_sets, 3U);
@@ -61,14 +63,14 @@ TEST(Lifetime, ResizeReplacesEveryImage) {
     FakeHost host;
     TestRenderer renderer(host, host.createInfo());
     ASSERT_EQ(renderer.result(), SLUICE_OK) << renderer.error().message;
-    SluiceError error{};
+    auto error = sized<SluiceError>();
     ASSERT_EQ(api().resize(renderer.get(), 129, 33, &error), SLUICE_OK) << error.message;
     EXPECT_EQ(host.held().size(), 8U);
     for (const auto& [key, image] : host.held()) {
         EXPECT_EQ(image.width, 129U);
         EXPECT_EQ(image.height, 33U);
     }
-    SluiceRendererInfo found{};
+    auto found = sized<SluiceRendererInfo>();
     ASSERT_EQ(api().info(renderer.get(), &found), SLUICE_OK);
     EXPECT_EQ(found.width, 129U);
 }
@@ -104,12 +106,48 @@ TEST(Lifetime, AfterAFailedResizeOnlyResizeAndDestroyWork) {
     EXPECT_EQ(renderer.submit(frameOf(2, 2)), SLUICE_OK) << renderer.error().message;
 }
 
+TEST(Lifetime, AResizeToAnImpossibleSizeChangesNothing) {
+    FakeHost host;
+    TestRenderer renderer(host, host.createInfo());
+    ASSERT_EQ(renderer.result(), SLUICE_OK) << renderer.error().message;
+    for (const auto& [width, height] : {std::pair{0U, 60U}, std::pair{80U, 0U}, std::pair{SLUICE_MAX_EXTENT + 1, 60U}}) {
+        EXPECT_EQ(api().resize(renderer.get(), width, height, nullptr), SLUICE_ERROR_INVALID_ARGUMENT);
+    }
+    EXPECT_EQ(host.held().size(), 8U);
+    EXPECT_EQ(host.shares, 8);
+    ASSERT_EQ(api().timeline_signal(renderer.get(), 1), SLUICE_OK);
+    EXPECT_EQ(renderer.submit(frameOf(1, 2)), SLUICE_OK) << renderer.error().message;
+}
+
+TEST(Lifetime, RunningOutOfDescriptorsNamesTheLimit) {
+    DeviceRequest request;
+    request.match_host = false;
+    Result<std::unique_ptr<Device>> device = Device::create(request);
+    ASSERT_TRUE(device) << device.error().message();
+    Result<Image> image = Image::create(
+        *device.value(), {VK_FORMAT_R8G8B8A8_UNORM, 8, 8, VK_IMAGE_USAGE_TRANSFER_DST_BIT, true, "for its descriptor"});
+    ASSERT_TRUE(image) << image.error().message();
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_NOFILE, &before), 0);
+    rlimit none = before;
+    none.rlim_cur = 0;  // what is open stays open
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &none), 0);
+    const Result<UniqueFd> refused = image.value().exportFd();
+    ASSERT_EQ(setrlimit(RLIMIT_NOFILE, &before), 0);
+    ASSERT_FALSE(refused);
+    EXPECT_LT(refused.error().code, 0);
+    EXPECT_THAT(refused.error().message(), HasSubstr("ulimit -n"));
+    const Result<UniqueFd> again = image.value().exportFd();
+    ASSERT_TRUE(again) << again.error().message();
+    EXPECT_TRUE(again.value().valid());
+}
+
 TEST(Lifetime, AFormatWhoseCanaryFailsIsStruckAndTheNextIsTaken) {
     FakeHost host;
     host.fail_canary_formats = formatBit(SLUICE_FORMAT_D32F) | formatBit(SLUICE_FORMAT_RGBA16F);
     const TestRenderer renderer(host, host.createInfo());
     ASSERT_EQ(renderer.result(), SLUICE_OK) << renderer.error().message;
-    SluiceRendererInfo found{};
+    auto found = sized<SluiceRendererInfo>();
     ASSERT_EQ(api().info(renderer.get(), &found), SLUICE_OK);
     EXPECT_EQ(found.formats[SLUICE_IMAGE_HOST_DEPTH], std::uint32_t{SLUICE_FORMAT_R32F});
     EXPECT_EQ(found.host_depth_encoding, std::uint32_t{SLUICE_DEPTH_LINEAR});
@@ -122,7 +160,7 @@ TEST(Lifetime, ACorruptedCanaryIsNoticedByTheRenderer) {
     host.corrupt_canary_formats = formatBit(SLUICE_FORMAT_D32F);
     const TestRenderer renderer(host, host.createInfo());
     ASSERT_EQ(renderer.result(), SLUICE_OK) << renderer.error().message;
-    SluiceRendererInfo found{};
+    auto found = sized<SluiceRendererInfo>();
     ASSERT_EQ(api().info(renderer.get(), &found), SLUICE_OK);
     EXPECT_EQ(found.formats[SLUICE_IMAGE_HOST_DEPTH], std::uint32_t{SLUICE_FORMAT_R32F});
 }

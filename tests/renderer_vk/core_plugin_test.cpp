@@ -70,6 +70,7 @@ TEST(Plugin, ExplainsWithoutADevice) {
         static_cast<std::vector<std::string>*>(user)->emplace_back(line);
     };
     SluiceError error{};
+    error.struct_size = sizeof(error);
     ASSERT_EQ(entry(SLUICE_ABI_VERSION)->explain(&needs, sink, &lines, &error), SLUICE_OK) << error.message;
     EXPECT_GE(lines.size(), 3U);
     needs.width = 0;

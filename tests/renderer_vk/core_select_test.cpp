@@ -26,7 +26,7 @@ DeviceCandidate candidate(const char* name, const char* device_uuid, const char*
     std::memcpy(c.driver_uuid, driver_uuid, SLUICE_UUID_SIZE);
     c.has_external_memory_fd = 1;
     c.has_timeline_semaphore = 1;
-    out.synchronization2 = out.dynamic_rendering = out.maintenance4 = out.host_query_reset = true;
+    out.synchronization2 = out.dynamic_rendering = out.maintenance4 = true;
     out.queue_family = 0;
     return out;
 }
@@ -98,7 +98,6 @@ TEST(DeviceSelection, NamesWhatTheHostsDeviceLacks) {
         {[](DeviceCandidate& c) { c.synchronization2 = false; }, "synchronization2"},
         {[](DeviceCandidate& c) { c.dynamic_rendering = false; }, "dynamicRendering"},
         {[](DeviceCandidate& c) { c.maintenance4 = false; }, "maintenance4"},
-        {[](DeviceCandidate& c) { c.host_query_reset = false; }, "hostQueryReset"},
         {[](DeviceCandidate& c) { c.queue_family.reset(); }, "queue family"},
     };
     const SluiceHostCapabilities host = hostWith({kNvidia}, kNvidiaDriver);

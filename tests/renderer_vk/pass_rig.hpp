@@ -32,6 +32,7 @@ inline constexpr SluiceFluid kWater{
     .refraction = 1,
     .reflection = 1,
     .view = SLUICE_VIEW_FLUID,
+    .reserved = {},
 };
 
 /// Everything that a frame depends on. Host images are rows bottom-up; colour is sRGB-encoded RGBA8.

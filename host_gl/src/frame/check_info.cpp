@@ -12,8 +12,6 @@ namespace sluice::host {
 
 namespace {
 
-constexpr std::uint32_t kMaxExtent = 16384;  // of SluiceCreateInfo
-
 Error brokenInfo(std::string detail) {
     return {SLUICE_ERROR_INTERNAL, "renderer info", std::move(detail), "the plugin is broken"};
 }
@@ -41,9 +39,9 @@ Status checkSet(const SluiceRendererInfo& info, const ImageTable& images, std::u
 }  // namespace
 
 Status checkExtent(std::uint32_t width, std::uint32_t height) {
-    if (width == 0 || height == 0 || width > kMaxExtent || height > kMaxExtent) {
+    if (width == 0 || height == 0 || width > SLUICE_MAX_EXTENT || height > SLUICE_MAX_EXTENT) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "size of the shared images",
-                     fmt::format("expected 1..{} a side, found {}x{}", kMaxExtent, width, height), ""};
+                     fmt::format("expected 1..{} a side, found {}x{}", SLUICE_MAX_EXTENT, width, height), ""};
     }
     return {};
 }

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "sluice/abi_sizes.hpp"
+
 namespace sluice::host {
 
 namespace {
@@ -23,7 +25,7 @@ struct CloseLibrary {
 };
 using Handle = std::unique_ptr<void, CloseLibrary>;
 
-/// The first function of the table that is NULL, or nullptr.
+/// The first function of ABI 1.0 that is NULL, or nullptr.
 const char* firstMissing(const SluiceRendererApi& api) {
     const std::array<std::pair<const char*, bool>, 16> present{{
         {"describe", api.describe != nullptr},
@@ -69,10 +71,10 @@ Status checkTable(const std::string& thing, const SluiceRendererApi* api) {
         return Error{SLUICE_ERROR_ABI_MISMATCH, thing,
                      fmt::format("expected ABI major {}, found {}", SLUICE_ABI_MAJOR, found), kRebuild};
     }
-    if (api->struct_size < sizeof(SluiceRendererApi)) {
+    if (api->struct_size < kAbiMinimum<SluiceRendererApi>) {
         return Error{SLUICE_ERROR_ABI_MISMATCH, thing,
-                     fmt::format("expected a function table of at least {} bytes, found {}", sizeof(SluiceRendererApi),
-                                 api->struct_size),
+                     fmt::format("expected a function table of at least {} bytes, found {}",
+                                 kAbiMinimum<SluiceRendererApi>, api->struct_size),
                      kRebuild};
     }
     if (const char* missing = firstMissing(*api)) {
@@ -114,15 +116,13 @@ Result<PluginLibrary> PluginLibrary::load(const std::filesystem::path& path) {
     }
     PluginLibrary library;
     library.handle_ = handle.release();
-    library.api_ = api;
+    library.api_ = std::make_unique<const SluiceRendererApi>(readAbiStruct(*api));
     library.path_ = path;
     return library;
 }
 
 PluginLibrary::PluginLibrary(PluginLibrary&& other) noexcept
-    : handle_(std::exchange(other.handle_, nullptr)),
-      api_(std::exchange(other.api_, nullptr)),
-      path_(std::move(other.path_)) {}
+    : handle_(std::exchange(other.handle_, nullptr)), api_(std::move(other.api_)), path_(std::move(other.path_)) {}
 
 PluginLibrary& PluginLibrary::operator=(PluginLibrary&& other) noexcept {
     std::swap(handle_, other.handle_);

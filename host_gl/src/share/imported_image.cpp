@@ -16,8 +16,6 @@ namespace sluice::host {
 
 namespace {
 
-constexpr std::uint32_t kMaxExtent = 16384;  // of SluiceCreateInfo
-
 std::string describe(const SluiceImageExport& image, const FormatInfo* format) {
     return fmt::format("import of {} set {} ({}x{} {})", toString(static_cast<SluiceImageRole>(image.role)),
                        image.image_set, image.width, image.height,
@@ -31,8 +29,9 @@ Status checkDescription(const SluiceImageExport& image, const FormatInfo* format
                                  image.format),
                      "the renderer is broken or newer than this host"};
     }
-    if (image.width == 0 || image.height == 0 || image.width > kMaxExtent || image.height > kMaxExtent) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected 1..{} texels a side", kMaxExtent), ""};
+    if (image.width == 0 || image.height == 0 || image.width > SLUICE_MAX_EXTENT || image.height > SLUICE_MAX_EXTENT) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, thing,
+                     fmt::format("expected 1..{} texels a side", SLUICE_MAX_EXTENT), ""};
     }
     if (image.fd < 0) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("file descriptor {} is not open", image.fd), ""};

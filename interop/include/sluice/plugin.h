@@ -12,9 +12,14 @@
  *   host through SluiceHostServices::share_image. The two then take turns, ordered by two 64-bit counters.
  *
  * GROWTH
- *   Every struct begins with `struct_size`, set by the side that fills it to its own sizeof. A reader uses a field only
- *   if struct_size covers it and treats a missing one as zero. Fields are only ever appended within one ABI major.
- *   Major differs: refuse. Minor differs: both sides use the fields that both know.
+ *   Every struct that crosses by pointer begins with `struct_size`, set by its owner to its own sizeof before the call,
+ *   for structs that the call fills as well. A reader uses a field only if struct_size covers it and treats a missing
+ *   one as zero; a call that fills a struct writes no further than struct_size and leaves in it the bytes that it knew.
+ *   Fields are only ever appended within one ABI major, and nothing is shorter than in its ABI 1.0 (sluice/
+ *   abi_sizes.hpp has those sizes): a smaller struct_size, zero included, is SLUICE_ERROR_INVALID_ARGUMENT. Major
+ *   differs: refuse. Minor differs: both sides use the fields that both know.
+ *   Structs that stand inside others by value keep their size for good; they grow into their `reserved` words, which
+ *   the side that fills the struct sets to zero and a reader that knows no meaning for them ignores.
  *
  * THREADS
  *   All renderer functions are called on the thread that owns the host's GL context, with that context current, because
@@ -61,6 +66,8 @@ extern "C" {
 #define SLUICE_MAX_DEVICE_UUIDS 4u
 #define SLUICE_MAX_IMAGE_SETS 4u
 #define SLUICE_MAX_PASSES 32u
+#define SLUICE_MAX_IMAGE_ROLES 16u /* room in arrays by role; SluiceImageRole may grow up to it */
+#define SLUICE_MAX_EXTENT 16384u   /* largest width or height of a shared image or an environment map, in texels */
 
 /* Results. Zero and positive values are not failures. */
 typedef enum SluiceResult {
@@ -208,7 +215,8 @@ typedef struct SluiceHostServices {
     /* Any thread. message is one line without a newline. */
     void (*log)(void* user, int32_t level, const char* message);
 
-    /* Any thread. NULL when tracing is off: then the renderer takes no timestamps. */
+    /* Any thread. NULL when tracing is off: then no events are sent. (The renderer takes its timestamps all the same:
+     * they also feed SluiceFrameStats.) */
     void (*trace)(void* user, const SluiceTraceEvent* event);
 
     /* The allocator of shared images, seen from the renderer: it brings exportable memory, the host binds it to a
@@ -238,6 +246,7 @@ typedef struct SluiceHostCapabilities {
     uint32_t texture_formats;        /* bit per SluiceFormat: usable as a texture */
     uint32_t attachment_formats;     /* bit per SluiceFormat: framebuffer complete when attached */
     char vendor[64], renderer[128], version[64];
+    uint32_t reserved[8]; /* zero */
 } SluiceHostCapabilities;
 
 /* The same for the Vulkan device. */
@@ -254,8 +263,8 @@ typedef struct SluiceRendererCapabilities {
     uint32_t exportable_formats; /* bit per SluiceFormat: exportable with the usages that frames need */
     uint32_t storage_formats;    /* bit per SluiceFormat: usable as a storage image */
     uint32_t blendable_formats;  /* bit per SluiceFormat: colour attachment with blending */
-    uint32_t dedicated_required; /* bit per SluiceFormat */
     char device_name[128], driver_name[64], driver_info[128];
+    uint32_t reserved[8]; /* zero */
 } SluiceRendererCapabilities;
 
 /* ------------------------------------------------------------------------------------------------------ scene -- */
@@ -264,6 +273,7 @@ typedef struct SluiceCamera {
     float view[16];              /* world to eye */
     float projection[16];        /* eye to clip, OpenGL convention, perspective and symmetric or not */
     float near_plane, far_plane; /* metres, 0 < near < far */
+    uint32_t reserved[4];        /* zero */
 } SluiceCamera;
 
 /* One distant light and the procedural sky, all linear. For a unit direction d (world):
@@ -274,6 +284,7 @@ typedef struct SluiceSky {
     float zenith[3], horizon[3], ground[3];
     float to_sun[3]; /* unit, world */
     float sun_radiance[3];
+    uint32_t reserved[4]; /* zero */
 } SluiceSky;
 
 typedef enum SluiceFilterKind {
@@ -308,6 +319,7 @@ typedef struct SluiceFluid {
     uint32_t refraction;        /* 0: the host's colour is not sampled */
     uint32_t reflection;        /* 0: no environment is sampled */
     uint32_t view;              /* SluiceView */
+    uint32_t reserved[8];       /* zero */
 } SluiceFluid;
 
 /* A particle set on the CPU. Arrays are tightly packed float triples in world metres; velocity and colour may be NULL.
@@ -366,6 +378,7 @@ typedef struct SluicePassStats {
     uint64_t bytes;        /* compulsory traffic: each input read once, each output written once */
     uint32_t is_particles; /* 1: elements are particles, 0: pixels */
     uint32_t dispatches;   /* draws or dispatches that the pass recorded */
+    uint64_t reserved[2];  /* zero */
 } SluicePassStats;
 
 typedef struct SluiceFrameStats {
@@ -380,7 +393,7 @@ typedef struct SluiceFrameStats {
 
 typedef struct SluiceCreateInfo {
     uint32_t struct_size;
-    uint32_t width, height;     /* of the shared images; 1..16384 */
+    uint32_t width, height;     /* of the shared images; 1..SLUICE_MAX_EXTENT */
     uint32_t image_sets;        /* 1..SLUICE_MAX_IMAGE_SETS */
     uint32_t timeline;          /* SluiceTimelineKind requested */
     uint32_t validation;        /* 1: enable VK_LAYER_KHRONOS_validation with synchronisation validation */
@@ -392,9 +405,9 @@ typedef struct SluiceCreateInfo {
 /* What create settled on. */
 typedef struct SluiceRendererInfo {
     uint32_t struct_size;
-    uint32_t timeline;                         /* SluiceTimelineKind in use */
-    uint32_t formats[SLUICE_IMAGE_ROLE_COUNT]; /* SluiceFormat per role, NONE where not shared */
-    uint32_t host_depth_encoding;              /* SluiceDepthEncoding */
+    uint32_t timeline;                        /* SluiceTimelineKind in use */
+    uint32_t formats[SLUICE_MAX_IMAGE_ROLES]; /* SluiceFormat per role, NONE where not shared */
+    uint32_t host_depth_encoding;             /* SluiceDepthEncoding */
     uint32_t image_sets, width, height;
     SluiceRendererCapabilities capabilities;
 } SluiceRendererInfo;
@@ -426,8 +439,9 @@ typedef struct SluiceRendererApi {
 
     SluiceResult (*info)(SluiceRenderer* renderer, SluiceRendererInfo* info);
 
-    /* Waits until no submitted frame is running, then replaces every shared image. On failure the renderer has no
-     * images and accepts only resize and destroy. */
+    /* Waits until no submitted frame is running, then replaces every shared image. Bad arguments (a size outside
+     * 1..SLUICE_MAX_EXTENT, an unusable SluiceError) are refused before anything is done. On every other failure all
+     * images have been retired and the renderer has none: submit_frame is refused until a resize has succeeded. */
     SluiceResult (*resize)(SluiceRenderer* renderer, uint32_t width, uint32_t height, SluiceError* error);
 
     /* Replace the particles for the frames submitted from now on; data is copied during the call. */

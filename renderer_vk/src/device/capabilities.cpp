@@ -79,9 +79,6 @@ void queryFormats(const InstanceFunctions& fn, VkPhysicalDevice device, SluiceRe
         if ((exports & VK_EXTERNAL_MEMORY_FEATURE_EXPORTABLE_BIT) != 0) {
             out.exportable_formats |= formatBit(row.format);
         }
-        if ((exports & VK_EXTERNAL_MEMORY_FEATURE_DEDICATED_ONLY_BIT) != 0) {
-            out.dedicated_required |= formatBit(row.format);
-        }
     }
 }
 
@@ -150,6 +147,7 @@ DeviceCandidate queryCandidate(const InstanceFunctions& fn, VkPhysicalDevice dev
     std::memcpy(out.device_uuid, id.deviceUUID, SLUICE_UUID_SIZE);
     std::memcpy(out.driver_uuid, id.driverUUID, SLUICE_UUID_SIZE);
     copyText(out.device_name, properties.properties.deviceName);
+    candidate.driver = driver.driverID;
     copyText(out.driver_name, driver.driverName);
     copyText(out.driver_info, driver.driverInfo);
     out.has_external_memory_fd = hasExtension(fn, device, VK_KHR_EXTERNAL_MEMORY_FD_EXTENSION_NAME) ? 1 : 0;
@@ -177,7 +175,6 @@ DeviceCandidate queryCandidate(const InstanceFunctions& fn, VkPhysicalDevice dev
     features.pNext = &v12;
     fn.vkGetPhysicalDeviceFeatures2(device, &features);
     out.has_timeline_semaphore = v12.timelineSemaphore != VK_FALSE ? 1 : 0;
-    candidate.host_query_reset = v12.hostQueryReset != VK_FALSE;
     candidate.synchronization2 = v13.synchronization2 != VK_FALSE;
     candidate.dynamic_rendering = v13.dynamicRendering != VK_FALSE;
     candidate.maintenance4 = v13.maintenance4 != VK_FALSE;

@@ -17,6 +17,17 @@ namespace sluice::vk {
 
 struct MessageSink;
 
+/// Paths that this device would not take by itself, so that tests can see them. Not part of the ABI.
+struct TestSwitches {
+    bool no_timer_barrier = false;  ///< FrameTimer leaves its barrier out, whatever the driver
+    bool stage_uploads = false;     ///< particles go through a staging buffer, whatever the memory
+};
+
+/// The switches of devices created from now on, by any thread; all off unless a test, which links this core and not the
+/// plugin, has set them.
+[[nodiscard]] TestSwitches testSwitches() noexcept;
+void setTestSwitches(const TestSwitches& switches) noexcept;
+
 /// What the device must be and who hears of it.
 struct DeviceRequest {
     SluiceHostCapabilities host{};                 ///< UUIDs to match
@@ -27,19 +38,15 @@ struct DeviceRequest {
 
 /// Optional features that were found and enabled.
 struct DeviceFeatures {
-    bool storage_read_without_format = false;
     bool storage_write_without_format = false;
-    bool storage_extended_formats = false;  ///< r16f and friends as storage images
-    bool scalar_block_layout = false;
     bool large_points = false;           ///< points of more than one pixel
-    bool push_descriptor = false;        ///< VK_KHR_push_descriptor
     bool calibrated_timestamps = false;  ///< device and CLOCK_MONOTONIC
 };
 
 /// Owns the instance, the device and its single graphics+compute queue. Pinned in memory: keep it by unique_ptr and
 /// pass `const Device&`. Call device functions through `fn`: `device.fn.vkCmdDispatch(commands, x, y, z)`. The queue is
 /// used on the thread that owns the renderer; `fn` may be used from any thread within Vulkan's own rules. Enabled
-/// always: Vulkan 1.3 with synchronization2, dynamicRendering, maintenance4, timelineSemaphore, hostQueryReset.
+/// always: Vulkan 1.3 with synchronization2, dynamicRendering, maintenance4, timelineSemaphore.
 struct Device {
     static Result<std::unique_ptr<Device>> create(const DeviceRequest& request);
 
@@ -61,7 +68,9 @@ struct Device {
 
     VkPhysicalDeviceProperties properties{};
     VkPhysicalDeviceMemoryProperties memory{};
+    VkDriverId driver{};
     DeviceFeatures features{};
+    TestSwitches switches = testSwitches();  ///< as they were when the device was created
     SluiceRendererCapabilities capabilities{};
 
     /// Index of a memory type of `type_bits` with all of `wanted`, preferring one that also has all of `preferred`.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "sluice/negotiate.hpp"
+#include "sluice/uuid.hpp"
 
 namespace sluice::vk {
 namespace {
@@ -32,17 +33,6 @@ std::string describeDevice(const SluiceRendererCapabilities& device) {
 
 }  // namespace
 
-std::string uuidText(const std::uint8_t (&uuid)[SLUICE_UUID_SIZE]) {
-    std::string text;
-    for (std::size_t i = 0; i < SLUICE_UUID_SIZE; ++i) {
-        if (i == 4 || i == 6 || i == 8 || i == 10) {
-            text += '-';
-        }
-        text += fmt::format("{:02x}", uuid[i]);
-    }
-    return text;
-}
-
 std::string_view missingFeature(const DeviceCandidate& candidate) {
     if (candidate.capabilities.api_version < VK_API_VERSION_1_3) {
         return "Vulkan 1.3";
@@ -61,9 +51,6 @@ std::string_view missingFeature(const DeviceCandidate& candidate) {
     }
     if (!candidate.maintenance4) {
         return "maintenance4";
-    }
-    if (!candidate.host_query_reset) {
-        return "hostQueryReset";
     }
     if (!candidate.queue_family) {
         return "a queue family with graphics and compute";

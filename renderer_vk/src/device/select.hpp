@@ -2,6 +2,8 @@
 // Which Vulkan device to take: a pure function of what was found.
 #pragma once
 
+#include <volk.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -15,10 +17,10 @@ namespace sluice::vk {
 /// A physical device as far as the choice depends on it.
 struct DeviceCandidate {
     SluiceRendererCapabilities capabilities{};
+    VkDriverId driver{};
     bool synchronization2 = false;
     bool dynamic_rendering = false;
     bool maintenance4 = false;
-    bool host_query_reset = false;
     std::optional<std::uint32_t> queue_family;  ///< first with graphics and compute
 };
 
@@ -29,8 +31,5 @@ struct DeviceCandidate {
 
 /// Empty if frames can run on the device, else the first thing that it lacks.
 [[nodiscard]] std::string_view missingFeature(const DeviceCandidate& candidate);
-
-/// 16 bytes as in RFC 4122: "6d657361-3232-2e33-2e36-000000000000".
-[[nodiscard]] std::string uuidText(const std::uint8_t (&uuid)[SLUICE_UUID_SIZE]);
 
 }  // namespace sluice::vk

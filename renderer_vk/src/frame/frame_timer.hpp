@@ -47,6 +47,7 @@ class FrameTimer final : public PassTimer {
 
   private:
     void stamp(VkCommandBuffer commands, std::uint32_t query) const;
+    void flush(VkCommandBuffer commands) const;
     [[nodiscard]] std::uint64_t monotonicOf(std::uint64_t ticks, std::uint64_t last_ticks) const;
 
     const Device& device_;

@@ -52,7 +52,7 @@ Result<std::shared_ptr<ParticleSet>> createParticleSet(const Device& device, con
                                  particles.count, bytes, limit),
                      fmt::format("use at most {} particles", limit / kPositionBytes)};
     }
-    const bool direct = writesLocalMemory(device);
+    const bool direct = !device.switches.stage_uploads && writesLocalMemory(device);
     Result<Buffer> upload =
         Buffer::create(device, {bytes, direct ? kUsage : VkBufferUsageFlags{VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
                                 BufferPlace::Upload, direct ? "particle positions" : "particle upload"});

@@ -92,10 +92,15 @@ Result<std::unique_ptr<SharedImages>> SharedImages::create(const Device& device,
 }
 
 SharedImages::~SharedImages() {
+    retire();
+}
+
+void SharedImages::retire() {
     for (std::uint32_t set = 0; set < desc_.sets; ++set) {
         for (std::uint32_t role = 0; role < SLUICE_IMAGE_ROLE_COUNT; ++role) {
             if (shared_[set][role]) {
                 host_.retire_image(host_.user, role, set);
+                shared_[set][role] = false;
             }
         }
     }

@@ -36,6 +36,8 @@ class SharedImages {
     SharedImages& operator=(const SharedImages&) = delete;
     /// Retires every image; no submitted frame may be running.
     ~SharedImages();
+    /// Takes every image back from the host, once; the memory stays until the end, for frames that still run.
+    void retire();
 
     [[nodiscard]] const SharedImagesDesc& desc() const { return desc_; }
     [[nodiscard]] FrameTargets targets(std::uint32_t set) const;

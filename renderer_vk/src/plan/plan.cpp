@@ -8,6 +8,8 @@
 #include <cmath>
 #include <span>
 
+#include "sluice/roles.hpp"
+
 namespace sluice::vk {
 namespace {
 
@@ -54,9 +56,10 @@ Status checkNumbers(const SluiceFluid& fluid) {
 }
 
 Status check(const SluiceSceneNeeds& needs) {
-    const auto sizeOk = [](std::uint32_t size) { return size >= 1 && size <= 16384; };
+    const auto sizeOk = [](std::uint32_t size) { return size >= 1 && size <= SLUICE_MAX_EXTENT; };
     if (!sizeOk(needs.width) || !sizeOk(needs.height)) {
-        return outOfRange("width, height", fmt::format("{}x{}", needs.width, needs.height), "1 to 16384 each");
+        return outOfRange("width, height", fmt::format("{}x{}", needs.width, needs.height),
+                          fmt::format("1 to {} each", SLUICE_MAX_EXTENT));
     }
     if (needs.fluid.view > SLUICE_VIEW_ECHO) {
         return outOfRange("fluid.view", fmt::format("{}", needs.fluid.view), "a SluiceView");
@@ -150,8 +153,7 @@ class Builder {
             return single(PassId::Echo, {PlanImage::HostColour, PlanImage::HostDepth}, "the echo view is asked for",
                           "the echo view shows no fluid");
         }
-        plan_.outputs = needs_.outputs &
-                        (SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS));
+        plan_.outputs = needs_.outputs & kOptionalFluidRoles;
         if (needs_.particle_count == 0) {
             return single(PassId::Clear, {}, "there are no particles", "there are no particles");
         }

@@ -2,9 +2,6 @@
 // The C ABI of sluice/plugin.h: checks arguments, translates Results, keeps exceptions in. No other logic.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cstddef>
-#include <cstring>
 #include <utility>
 
 #include "plugin/api.hpp"
@@ -12,6 +9,7 @@
 #include "plugin/boundary.hpp"
 #include "plugin/prove.hpp"
 #include "plugin/renderer.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::vk {
@@ -21,47 +19,34 @@ Error isNull(const char* name) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, name, "it is NULL", ""};
 }
 
-/// Fills a struct of the caller's. One with a struct_size keeps its end; 0 stands for the struct of this ABI.
-template <typename T>
-Status fill(T* to, const T& from, const char* name) {
-    if (to == nullptr) {
-        return isNull(name);
-    }
-    if (to->struct_size != 0 && to->struct_size < sizeof(T)) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
-                     fmt::format("struct_size is {}, at least {} is needed", to->struct_size, sizeof(T)),
-                     "set it to sizeof"};
-    }
-    *to = from;
-    to->struct_size = sizeof(T);
-    return {};
-}
-
-Result<std::unique_ptr<Device>> deviceFor(const SluiceHostServices* host, const SluiceCreateInfo* info) {
-    if (Status status = checkServices(host); !status) {
-        return status.error();
-    }
-    if (Status status = checkCreateHeader(info); !status) {
-        return status.error();
-    }
+/// The device for a call that leaves nothing behind. `services` must outlive it; `info` has passed checkCreateHeader.
+Result<std::unique_ptr<Device>> deviceFor(const SluiceHostServices& services, const SluiceCreateInfo& info) {
+    const SluiceCreateInfo known = readCreateInfo(info);
     DeviceRequest request;
-    request.host = info->host;
-    request.validation = info->validation != 0;
-    request.services = host;
+    request.host = known.host;
+    request.validation = known.validation != 0;
+    request.services = &services;
     return Device::create(request);
 }
 
 SluiceResult describe(const SluiceHostServices* host, const SluiceCreateInfo* info,
                       SluiceRendererCapabilities* capabilities, SluiceError* error) {
     return guarded(error, [&]() -> Status {
-        if (capabilities == nullptr) {
-            return isNull("capabilities");
+        if (Status status = checkAbiStruct(capabilities, "capabilities"); !status) {
+            return status;
         }
-        Result<std::unique_ptr<Device>> device = deviceFor(host, info);
+        if (Status status = checkServices(host); !status) {
+            return status;
+        }
+        if (Status status = checkCreateHeader(info); !status) {
+            return status;
+        }
+        const SluiceHostServices services = readAbiStruct(*host);
+        Result<std::unique_ptr<Device>> device = deviceFor(services, *info);
         if (!device) {
             return device.error();
         }
-        return fill(capabilities, device.value()->capabilities, "capabilities");
+        return writeAbiStruct(capabilities, device.value()->capabilities, "capabilities");
     });
 }
 
@@ -73,7 +58,7 @@ SluiceResult explainNeeds(const SluiceSceneNeeds* needs, SluiceLineSink sink, vo
         if (sink == nullptr) {
             return isNull("sink");
         }
-        Result<Plan> plan = makePlan(*needs);
+        Result<Plan> plan = makePlan(readAbiStruct(*needs));
         if (!plan) {
             return plan.error();
         }
@@ -86,15 +71,18 @@ SluiceResult explainNeeds(const SluiceSceneNeeds* needs, SluiceLineSink sink, vo
 
 SluiceResult create(const SluiceHostServices* host, const SluiceCreateInfo* info, SluiceRenderer** renderer,
                     SluiceError* error) {
+    if (renderer != nullptr) {
+        *renderer = nullptr;
+    }
     return guarded(error, [&]() -> Status {
         if (renderer == nullptr) {
             return isNull("renderer");
         }
-        *renderer = nullptr;
         if (Status status = checkCreateInfo(host, info); !status) {
             return status;
         }
-        Result<std::unique_ptr<SluiceRenderer>> made = SluiceRenderer::create(*host, *info);
+        Result<std::unique_ptr<SluiceRenderer>> made =
+            SluiceRenderer::create(readAbiStruct(*host), readCreateInfo(*info));
         if (!made) {
             return made.error();
         }
@@ -105,7 +93,7 @@ SluiceResult create(const SluiceHostServices* host, const SluiceCreateInfo* info
 
 SluiceResult info(SluiceRenderer* renderer, SluiceRendererInfo* out) {
     return guarded(nullptr, [&]() -> Status {
-        return renderer == nullptr ? isNull("renderer") : fill(out, renderer->info(), "info");
+        return renderer == nullptr ? isNull("renderer") : writeAbiStruct(out, renderer->info(), "info");
     });
 }
 
@@ -122,7 +110,7 @@ SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* parti
         if (Status status = checkParticles(particles); !status) {
             return status;
         }
-        return renderer->setParticles(*particles);
+        return renderer->setParticles(readAbiStruct(*particles));
     });
 }
 
@@ -134,13 +122,24 @@ SluiceResult setEnvironment(SluiceRenderer* renderer, const SluiceEnvironment* e
         if (Status status = checkEnvironment(environment); !status) {
             return status;
         }
-        return renderer->setEnvironment(environment);
+        if (environment == nullptr) {
+            return renderer->setEnvironment(nullptr);
+        }
+        const SluiceEnvironment map = readAbiStruct(*environment);
+        return renderer->setEnvironment(&map);
     });
 }
 
 SluiceResult submitFrame(SluiceRenderer* renderer, const SluiceFrame* frame, SluiceError* error) {
-    return guarded(error,
-                   [&]() -> Status { return renderer == nullptr ? isNull("renderer") : renderer->submitFrame(frame); });
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (Status status = checkAbiStruct(frame, "frame"); !status) {
+            return status;
+        }
+        return renderer->submitFrame(readAbiStruct(*frame));
+    });
 }
 
 SluiceResult poll(SluiceRenderer* renderer, std::uint64_t frame, SluiceFrameStats* stats) {
@@ -149,12 +148,12 @@ SluiceResult poll(SluiceRenderer* renderer, std::uint64_t frame, SluiceFrameStat
         if (renderer == nullptr) {
             return isNull("renderer");
         }
-        SluiceFrameStats found{};
-        if (stats == nullptr) {
-            return isNull("stats");
+        if (Status status = checkAbiStruct(stats, "stats"); !status) {
+            return status;
         }
+        SluiceFrameStats found{};
         answer = renderer->poll(frame, found);
-        return answer == SLUICE_OK ? fill(stats, found, "stats") : Status{};
+        return answer == SLUICE_OK ? writeAbiStruct(stats, found, "stats") : Status{};
     });
     return failure != SLUICE_OK ? failure : answer;
 }
@@ -166,7 +165,15 @@ SluiceResult timelineSignal(SluiceRenderer* renderer, std::uint64_t value) {
 }
 
 SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns) {
-    return renderer == nullptr ? SLUICE_ERROR_INVALID_ARGUMENT : renderer->timeline().wait(value, timeout_ns);
+    SluiceResult answer = SLUICE_OK;
+    const SluiceResult failure = guarded(nullptr, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        answer = renderer->timeline().wait(value, timeout_ns);
+        return {};
+    });
+    return failure != SLUICE_OK ? failure : answer;
 }
 
 Status checkDirection(std::uint32_t direction) {
@@ -196,11 +203,13 @@ SluiceResult timelineValue(SluiceRenderer* renderer, std::uint32_t direction, st
 
 SluiceResult timelineExport(SluiceRenderer* renderer, std::uint32_t direction, std::uint64_t value, std::int32_t* fd,
                             SluiceError* error) {
+    if (fd != nullptr) {
+        *fd = -1;
+    }
     return guarded(error, [&]() -> Status {
         if (renderer == nullptr || fd == nullptr) {
             return isNull("renderer or fd");
         }
-        *fd = -1;
         if (Status status = checkDirection(direction); !status) {
             return status;
         }
@@ -225,14 +234,18 @@ SluiceResult probeFormat(const SluiceHostServices* host, const SluiceCreateInfo*
         if (Status status = checkServices(host); !status) {
             return status;
         }
-        if (host->canary == nullptr) {
+        if (Status status = checkCreateHeader(create_info); !status) {
+            return status;
+        }
+        const SluiceHostServices services = readAbiStruct(*host);
+        if (services.canary == nullptr) {
             return isNull("host.canary");
         }
-        Result<std::unique_ptr<Device>> device = deviceFor(host, create_info);
+        Result<std::unique_ptr<Device>> device = deviceFor(services, *create_info);
         if (!device) {
             return device.error();
         }
-        return proveFormat(*device.value(), *host, static_cast<SluiceFormat>(format), width, height, format);
+        return proveFormat(*device.value(), services, static_cast<SluiceFormat>(format), width, height, format);
     });
 }
 

@@ -9,7 +9,9 @@
 #include <span>
 #include <string_view>
 
+#include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
+#include "sluice/roles.hpp"
 #include "sluice/timeline.hpp"
 
 namespace sluice::vk {
@@ -17,19 +19,6 @@ namespace {
 
 Error invalid(std::string_view thing, std::string detail, std::string_view remedy = "") {
     return {SLUICE_ERROR_INVALID_ARGUMENT, std::string(thing), std::move(detail), std::string(remedy)};
-}
-
-/// The struct is there and has every field of ABI 1.0. A larger one comes from a newer host; its tail is not looked at.
-template <typename T>
-Status checkStruct(const T* value, std::string_view name) {
-    if (value == nullptr) {
-        return invalid(name, "it is NULL");
-    }
-    if (value->struct_size < sizeof(T)) {
-        return invalid(name, fmt::format("struct_size is {}, at least {} is needed", value->struct_size, sizeof(T)),
-                       "set it to sizeof");
-    }
-    return {};
 }
 
 Status checkFinite(std::span<const float> values, std::string_view name) {
@@ -41,16 +30,10 @@ Status checkFinite(std::span<const float> values, std::string_view name) {
     return {};
 }
 
-constexpr std::uint32_t kFluidRoles =
-    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_COLOUR) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_DEPTH) |
-    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS);
-constexpr std::uint32_t kAlwaysShared =
-    SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_COLOUR) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_DEPTH);
-
 }  // namespace
 
 Status checkServices(const SluiceHostServices* host) {
-    if (Status status = checkStruct(host, "host"); !status) {
+    if (Status status = checkAbiStruct(host, "host"); !status) {
         return status;
     }
     if ((host->abi_version >> 16U) != SLUICE_ABI_MAJOR) {
@@ -62,10 +45,10 @@ Status checkServices(const SluiceHostServices* host) {
 }
 
 Status checkCreateHeader(const SluiceCreateInfo* info) {
-    if (Status status = checkStruct(info, "info"); !status) {
+    if (Status status = checkAbiStruct(info, "info"); !status) {
         return status;
     }
-    if (Status status = checkStruct(&info->host, "info.host"); !status) {
+    if (Status status = checkAbiStruct(&info->host, "info.host"); !status) {
         return status;
     }
     if (info->host.device_uuid_count > SLUICE_MAX_DEVICE_UUIDS) {
@@ -75,9 +58,15 @@ Status checkCreateHeader(const SluiceCreateInfo* info) {
     return {};
 }
 
+SluiceCreateInfo readCreateInfo(const SluiceCreateInfo& info) {
+    SluiceCreateInfo known = readAbiStruct(info);
+    known.host = readAbiStruct(known.host);
+    return known;
+}
+
 Status checkSize(std::uint32_t width, std::uint32_t height) {
-    if (width < 1 || width > kMaxSize || height < 1 || height > kMaxSize) {
-        return invalid("size", fmt::format("{}x{} is outside 1..{}", width, height, kMaxSize));
+    if (width < 1 || width > SLUICE_MAX_EXTENT || height < 1 || height > SLUICE_MAX_EXTENT) {
+        return invalid("size", fmt::format("{}x{} is outside 1..{}", width, height, SLUICE_MAX_EXTENT));
     }
     return {};
 }
@@ -111,7 +100,7 @@ Status checkCreateInfo(const SluiceHostServices* host, const SluiceCreateInfo* i
 }
 
 Status checkParticles(const SluiceParticles* particles) {
-    if (Status status = checkStruct(particles, "particles"); !status) {
+    if (Status status = checkAbiStruct(particles, "particles"); !status) {
         return status;
     }
     if (particles->count == 0) {
@@ -130,7 +119,7 @@ Status checkEnvironment(const SluiceEnvironment* environment) {
     if (environment == nullptr) {
         return {};
     }
-    if (Status status = checkStruct(environment, "environment"); !status) {
+    if (Status status = checkAbiStruct(environment, "environment"); !status) {
         return status;
     }
     if (environment->pixels == nullptr) {
@@ -140,30 +129,26 @@ Status checkEnvironment(const SluiceEnvironment* environment) {
 }
 
 Status checkNeeds(const SluiceSceneNeeds* needs) {
-    return checkStruct(needs, "needs");
+    return checkAbiStruct(needs, "needs");
 }
 
-Status checkFrameOrder(const SluiceFrame* frame, const FrameExpectation& expected) {
-    if (Status status = checkStruct(frame, "frame"); !status) {
-        return status;
-    }
-    if (frame->frame <= expected.submitted || frame->frame > expected.attempted + 1) {
+Status checkFrameOrder(const SluiceFrame& frame, const FrameExpectation& expected) {
+    if (frame.frame <= expected.submitted || frame.frame > expected.attempted + 1) {
         return invalid("frame.frame",
-                       fmt::format("{} came after frame {}, {} was expected", frame->frame, expected.attempted,
+                       fmt::format("{} came after frame {}, {} was expected", frame.frame, expected.attempted,
                                    expected.attempted + 1),
                        "number frames from 1 without gaps");
     }
-    if (const std::uint32_t set = imageSetOf(frame->frame, expected.image_sets); frame->image_set != set) {
-        return invalid("frame.image_set",
-                       fmt::format("{} is not (frame - 1) % image_sets = {}", frame->image_set, set));
+    if (const std::uint32_t set = imageSetOf(frame.frame, expected.image_sets); frame.image_set != set) {
+        return invalid("frame.image_set", fmt::format("{} is not (frame - 1) % image_sets = {}", frame.image_set, set));
     }
-    if (frame->wait_value != gbufferWritten(frame->frame)) {
+    if (frame.wait_value != gbufferWritten(frame.frame)) {
         return invalid("frame.wait_value",
-                       fmt::format("{} is not 2k-1 = {}", frame->wait_value, gbufferWritten(frame->frame)));
+                       fmt::format("{} is not 2k-1 = {}", frame.wait_value, gbufferWritten(frame.frame)));
     }
-    if (frame->signal_value != fluidWritten(frame->frame)) {
+    if (frame.signal_value != fluidWritten(frame.frame)) {
         return invalid("frame.signal_value",
-                       fmt::format("{} is not k = {}", frame->signal_value, fluidWritten(frame->frame)));
+                       fmt::format("{} is not k = {}", frame.signal_value, fluidWritten(frame.frame)));
     }
     return {};
 }
@@ -172,7 +157,7 @@ Status checkFrameValues(const SluiceFrame& frame, const FrameExpectation& expect
     if ((frame.flags & ~std::uint32_t{SLUICE_FRAME_SKIP_WAIT}) != 0) {
         return invalid("frame.flags", fmt::format("{:#x} has bits that are not SluiceFrameFlags", frame.flags));
     }
-    if (const std::uint32_t unshared = frame.outputs & ~(expected.outputs | kAlwaysShared); unshared != 0) {
+    if (const std::uint32_t unshared = frame.outputs & ~(expected.outputs | kAlwaysMadeFluidRoles); unshared != 0) {
         return invalid("frame.outputs", fmt::format("{:#x} are roles that create was not asked to share", unshared));
     }
     struct Field {

@@ -9,13 +9,13 @@
 
 namespace sluice::vk {
 
-inline constexpr std::uint32_t kMaxSize = 16384;
-
 /// For describe, which takes only the UUIDs from info: services, versions and sizes of structs.
 [[nodiscard]] Status checkServices(const SluiceHostServices* host);
 [[nodiscard]] Status checkCreateHeader(const SluiceCreateInfo* info);
 /// For create: all of info, and services that share images.
 [[nodiscard]] Status checkCreateInfo(const SluiceHostServices* host, const SluiceCreateInfo* info);
+/// Both levels of it, each with what its struct_size does not cover as zero. It has passed checkCreateHeader.
+[[nodiscard]] SluiceCreateInfo readCreateInfo(const SluiceCreateInfo& info);
 [[nodiscard]] Status checkSize(std::uint32_t width, std::uint32_t height);
 [[nodiscard]] Status checkParticles(const SluiceParticles* particles);
 [[nodiscard]] Status checkEnvironment(const SluiceEnvironment* environment);
@@ -29,7 +29,7 @@ struct FrameExpectation {
     std::uint32_t outputs = 0;  ///< FLUID_* roles that are shared
 };
 /// The frame's place in the protocol: number, values, image set. The fluid is the plan's to check.
-[[nodiscard]] Status checkFrameOrder(const SluiceFrame* frame, const FrameExpectation& expected);
+[[nodiscard]] Status checkFrameOrder(const SluiceFrame& frame, const FrameExpectation& expected);
 /// Its camera, sky, flags and outputs.
 [[nodiscard]] Status checkFrameValues(const SluiceFrame& frame, const FrameExpectation& expected);
 

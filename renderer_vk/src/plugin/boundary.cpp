@@ -6,14 +6,15 @@
 #include <cstring>
 #include <string>
 
+#include "sluice/abi_sizes.hpp"
+
 namespace sluice::vk {
 
 void writeError(SluiceError* to, const Error& error) noexcept {
     if (to == nullptr) {
         return;
     }
-    // A host that left struct_size at zero has given the struct of this ABI; a smaller one gets what fits.
-    const std::size_t size = to->struct_size == 0 ? sizeof(SluiceError) : to->struct_size;
+    const std::size_t size = to->struct_size;
     constexpr std::size_t kHeader = offsetof(SluiceError, message);
     if (size < kHeader) {
         return;
@@ -33,6 +34,21 @@ void writeError(SluiceError* to, const Error& error) noexcept {
         to->message[length] = '\0';
     } catch (...) {
         to->message[0] = '\0';  // no memory for the text: the code says as much
+    }
+}
+
+bool usable(SluiceError* error) noexcept {
+    try {
+        if (error == nullptr) {
+            return true;
+        }
+        const Status status = checkAbiStruct(error, "error");
+        if (!status) {
+            writeError(error, status.error());
+        }
+        return status.ok();
+    } catch (...) {
+        return false;  // only an unusable struct needs memory for its message
     }
 }
 

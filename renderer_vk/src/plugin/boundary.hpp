@@ -13,9 +13,16 @@ namespace sluice::vk {
 /// Fills `to`, cut to what its struct_size holds; NULL is allowed.
 void writeError(SluiceError* to, const Error& error) noexcept;
 
-/// Runs `body`, which returns a Status; nothing is thrown.
+/// There is no error struct, or one that holds every message whole. If not, what fits has been written to it.
+[[nodiscard]] bool usable(SluiceError* error) noexcept;
+
+/// Runs `body`, which returns a Status; nothing is thrown. An unusable `error` is an invalid argument, and `body` is
+/// not run.
 template <typename Body>
 [[nodiscard]] SluiceResult guarded(SluiceError* error, Body body) noexcept {
+    if (!usable(error)) {
+        return SLUICE_ERROR_INVALID_ARGUMENT;
+    }
     try {
         const Status status = body();
         if (status) {

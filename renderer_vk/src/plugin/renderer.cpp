@@ -27,17 +27,17 @@ constexpr std::uint64_t kGraceNs = 500'000'000;
 Result<std::unique_ptr<SluiceRenderer>> SluiceRenderer::create(const SluiceHostServices& host,
                                                                const SluiceCreateInfo& info) {
     auto renderer = std::make_unique<SluiceRenderer>();
-    renderer->host_ = &host;
+    renderer->host_ = host;
     DeviceRequest request;
     request.host = info.host;
     request.validation = info.validation != 0;
-    request.services = &host;
+    request.services = &renderer->host_;
     Result<std::unique_ptr<Device>> device = Device::create(request);
     if (!device) {
         return device.error();
     }
     renderer->device_ = std::move(device).value();
-    Result<sluice::Agreement> agreement = agree(*renderer->device_, host, info);
+    Result<sluice::Agreement> agreement = agree(*renderer->device_, renderer->host_, info);
     if (!agreement) {
         return agreement.error();
     }
@@ -64,7 +64,7 @@ Result<std::unique_ptr<SluiceRenderer>> SluiceRenderer::create(const SluiceHostS
     }
     renderer->recorder_.emplace(std::move(recorder).value());
     Result<std::unique_ptr<FrameRing>> frames =
-        FrameRing::create(*renderer->device_, *renderer->timeline_, Tracer(host), info.image_sets);
+        FrameRing::create(*renderer->device_, *renderer->timeline_, Tracer(renderer->host_), info.image_sets);
     if (!frames) {
         return frames.error();
     }
@@ -88,7 +88,7 @@ Status SluiceRenderer::createImages(std::uint32_t width, std::uint32_t height) {
     desc.width = width;
     desc.height = height;
     desc.sets = info_.image_sets;
-    Result<std::unique_ptr<SharedImages>> images = SharedImages::create(*device_, *host_, desc);
+    Result<std::unique_ptr<SharedImages>> images = SharedImages::create(*device_, host_, desc);
     if (!images) {
         return images.error();
     }
@@ -110,17 +110,22 @@ Status SluiceRenderer::quiesce() {
 
 Status SluiceRenderer::resize(std::uint32_t width, std::uint32_t height) {
     if (Status status = checkSize(width, height); !status) {
-        return status;
+        return status;  // the only failure that leaves the images as they were
     }
-    if (Status status = quiesce(); !status) {
-        return status;
+    const Status idle = quiesce();
+    if (images_) {
+        images_->retire();
+        abandoned_.push_back(std::move(images_));
     }
-    images_.reset();
+    if (!idle) {
+        return idle;
+    }
+    abandoned_.clear();
     return createImages(width, height);
 }
 
 Status SluiceRenderer::setParticles(const SluiceParticles& particles) {
-    const Tracer tracer(*host_);
+    const Tracer tracer(host_);
     const std::uint64_t begin = tracer.now();
     Result<std::shared_ptr<ParticleSet>> set = createParticleSet(*device_, particles);
     if (!set) {
@@ -143,7 +148,7 @@ Status SluiceRenderer::setEnvironment(const SluiceEnvironment* environment) {
     return {};
 }
 
-Status SluiceRenderer::submitFrame(const SluiceFrame* frame) {
+Status SluiceRenderer::submitFrame(const SluiceFrame& frame) {
     FrameExpectation expected;
     expected.submitted = submitted_;
     expected.attempted = attempted_;
@@ -152,21 +157,21 @@ Status SluiceRenderer::submitFrame(const SluiceFrame* frame) {
     if (Status status = checkFrameOrder(frame, expected); !status) {
         return status;
     }
-    attempted_ = frame->frame;
-    if (Status status = checkFrameValues(*frame, expected); !status) {
+    attempted_ = frame.frame;
+    if (Status status = checkFrameValues(frame, expected); !status) {
         return status;
     }
     if (!images_) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "submit_frame", "there are no images since resize failed",
                      "resize first"};
     }
-    if (Status status = frames_->waitForSlot(frame->image_set); !status) {
+    if (Status status = frames_->waitForSlot(frame.image_set); !status) {
         return status;
     }
-    if (Status status = preparePlan(*frame); !status) {
+    if (Status status = preparePlan(frame); !status) {
         return status;
     }
-    return recordAndSubmit(*frame);
+    return recordAndSubmit(frame);
 }
 
 Status SluiceRenderer::preparePlan(const SluiceFrame& frame) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "device/device.hpp"
 #include "frame/frame_ring.hpp"
@@ -31,7 +32,7 @@ struct SluiceRenderer {
     [[nodiscard]] sluice::Status setParticles(const SluiceParticles& particles);
     [[nodiscard]] sluice::Status setEnvironment(const SluiceEnvironment* environment);
     /// Everything about the frame is checked here.
-    [[nodiscard]] sluice::Status submitFrame(const SluiceFrame* frame);
+    [[nodiscard]] sluice::Status submitFrame(const SluiceFrame& frame);
     [[nodiscard]] SluiceResult poll(std::uint64_t frame, SluiceFrameStats& stats);
     [[nodiscard]] sluice::vk::RendererTimeline& timeline() { return *timeline_; }
     [[nodiscard]] const SluiceRendererInfo& info() const { return info_; }
@@ -46,11 +47,13 @@ struct SluiceRenderer {
     [[nodiscard]] sluice::Status preparePlan(const SluiceFrame& frame);
     [[nodiscard]] sluice::Status recordAndSubmit(const SluiceFrame& frame);
 
-    const SluiceHostServices* host_ = nullptr;
+    SluiceHostServices host_{};  ///< a copy, so that a shorter table of an older host has its end as NULL
     std::unique_ptr<sluice::vk::Device> device_;
     std::unique_ptr<sluice::vk::RendererTimeline> timeline_;
     std::optional<sluice::vk::FluidRecorder> recorder_;
     std::unique_ptr<sluice::vk::SharedImages> images_;  ///< null after a failed resize
+    /// Retired by a resize that could not wait for the frames that use them.
+    std::vector<std::unique_ptr<sluice::vk::SharedImages>> abandoned_;
     std::shared_ptr<sluice::vk::ParticleSet> particles_;
     std::unique_ptr<sluice::vk::FrameRing> frames_;
     std::optional<sluice::vk::Plan> plan_;  ///< the recorder's

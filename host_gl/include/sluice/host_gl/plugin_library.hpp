@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
@@ -19,13 +20,15 @@ class PluginLibrary {
     PluginLibrary& operator=(PluginLibrary&&) noexcept;
     ~PluginLibrary();
 
+    /// A copy of the plugin's table; functions that an older plugin's shorter table does not have are NULL. Those of
+    /// ABI 1.0 are there. Stays where it is when the library is moved.
     [[nodiscard]] const SluiceRendererApi& api() const { return *api_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
   private:
     PluginLibrary() = default;
     void* handle_ = nullptr;
-    const SluiceRendererApi* api_ = nullptr;
+    std::unique_ptr<const SluiceRendererApi> api_;
     std::filesystem::path path_;
 };
 
