@@ -24,7 +24,7 @@ class Timeline : public ::testing::Test {
         services.log = [](void*, std::int32_t, const char* message) { std::fprintf(stderr, "%s\n", message); };
         request.services = &services;
         request.match_host = false;
-        request.validation = true;
+        request.validation = validated;
         Result<std::unique_ptr<Device>> made = Device::create(request);
         ASSERT_TRUE(made) << made.error().message();
         device = std::move(made).value();
@@ -34,6 +34,8 @@ class Timeline : public ::testing::Test {
             EXPECT_EQ(device->validationMessages(), 0U);
         }
     }
+
+    bool validated = true;
 
     std::unique_ptr<RendererTimeline> make(SluiceTimelineKind kind) const {
         Result<std::unique_ptr<RendererTimeline>> made = RendererTimeline::create(*device, kind);
@@ -114,7 +116,17 @@ TEST_F(Timeline, ValuesOnlyEverIncrease) {
     EXPECT_TRUE(timeline->signal(4));
 }
 
-TEST_F(Timeline, SignalsAndWaitsFromManyThreads) {
+/// Layer 1.3.239 loses count when one thread signals a timeline while another waits for it: it stalls each for ten
+/// seconds and reports UNASSIGNED-VkSemaphore-state-timeout, "most likely a validation bug". See docs/validation.md.
+class UnvalidatedTimeline : public Timeline {
+  protected:
+    void SetUp() override {
+        validated = false;
+        Timeline::SetUp();
+    }
+};
+
+TEST_F(UnvalidatedTimeline, SignalsAndWaitsFromManyThreads) {
     const auto timeline = make(SLUICE_TIMELINE_BRIDGED);
     ASSERT_TRUE(timeline);
     constexpr std::uint64_t kFrames = 50;
@@ -186,7 +198,7 @@ TEST_F(Timeline, DrainKeepsAPromiseThatTheHostBroke) {
     EXPECT_TRUE(timeline->signal(4)) << "and the counter goes on from there";
 }
 
-TEST_F(Timeline, DrainWaitsOnWhileTheHostIsSlowButMoves) {
+TEST_F(UnvalidatedTimeline, DrainWaitsOnWhileTheHostIsSlowButMoves) {
     const auto timeline = make(SLUICE_TIMELINE_BRIDGED);
     ASSERT_TRUE(timeline);
     constexpr std::uint64_t kSlowFrames = 6;

@@ -61,7 +61,8 @@ std::vector<EGLDeviceEXT> listEglDevices() {
         return {};
     }
     // Not in braces: a pointer converts to EGLDeviceEXT, which is void*, and the vector would hold the two ends.
-    return std::vector<EGLDeviceEXT>(list.begin(), list.begin() + count);
+    std::vector<EGLDeviceEXT> devices(list.begin(), list.begin() + count);
+    return devices;
 }
 
 bool isSoftwareDevice(EGLDeviceEXT device) {
