@@ -129,10 +129,19 @@ int probe(const ProbeOptions& options) {
         result.gl = host::queryCapabilities();
         probeRenderer(result, options);
     }
+    const std::vector<std::string> devices = host::eglDevices();
     if (options.json) {
-        fmt::print("{}\n", probeJson(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        nlohmann::ordered_json document = probeJson(result);
+        document["egl_devices"] = devices;
+        fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
-        fmt::print("{}", probeText(result));
+        fmt::print("{}\nEGL devices\n", probeText(result));
+        for (const std::string& device : devices) {
+            fmt::print("  {}\n", device);
+        }
+        if (devices.empty()) {
+            fmt::print("  none: EGL cannot list them here\n");
+        }
     }
     return result.possible() ? kExitOk : kExitNoFluid;
 }

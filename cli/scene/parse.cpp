@@ -14,9 +14,16 @@ namespace sluice::scene {
 namespace {
 
 /// nlohmann's messages start with "[json.exception...] "; the rest says line, column and what was found.
-std::string withoutTag(const std::string& text) {
-    const std::size_t end = text.find("] ");
-    return end == std::string::npos ? text : text.substr(end + 2);
+/// They quote the whole of a bad token, however long, so the middle is left out of a long one.
+std::string withoutTag(const std::string& message) {
+    constexpr std::size_t kHead = 160;
+    constexpr std::size_t kTail = 80;
+    const std::size_t end = message.find("] ");
+    const std::string text = end == std::string::npos ? message : message.substr(end + 2);
+    if (text.size() <= kHead + kTail) {
+        return text;
+    }
+    return text.substr(0, kHead) + " ... " + text.substr(text.size() - kTail);
 }
 
 double length(const Vec3& v) {

@@ -43,6 +43,14 @@ std::string shown(const nlohmann::json& value) {
     return text;
 }
 
+/// A key as the file has it, escaped and shortened likewise.
+std::string shownKey(const std::string& key) {
+    constexpr std::size_t kLongest = 60;
+    const std::string quoted = nlohmann::json(key).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+    const std::string text = quoted.substr(1, quoted.size() - 2);
+    return text.size() > kLongest ? text.substr(0, kLongest - 3) + "..." : text;
+}
+
 }  // namespace
 
 std::string Range::text(const char* what) const {
@@ -186,8 +194,8 @@ void ObjectReader::finish() {
             return distance(a, sought) < distance(b, sought);
         });
         failure_ = Error{SLUICE_ERROR_INVALID_ARGUMENT, name_,
-                         fmt::format("{}: unknown key with value {}; the nearest known key is \"{}\"", at(key),
-                                     shown(value), *nearest),
+                         fmt::format("{}: unknown key with value {}; the nearest known key is \"{}\"",
+                                     at(shownKey(key)), shown(value), *nearest),
                          fmt::format("known keys here: {}", fmt::join(known_, ", "))};
     }
 }

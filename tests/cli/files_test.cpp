@@ -131,5 +131,42 @@ TEST_F(Files, AnEnvironmentMapThatIsAPipeIsRefusedAtOnce) {
     EXPECT_THAT(outcome.err, AllOf(HasSubstr("sky.png"), HasSubstr("expected a regular file")));
 }
 
+TEST_F(Files, OutOfMemoryNamesTheSizeAndTheRemedyAndKeepsWhatIsDone) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "the sanitizers' shadow memory does not fit under a limit of the address space";
+#endif
+    // The target fits under the limit, reading it back as floats does not.
+    const Outcome outcome =
+        run("render s.json -o deep/a.png --no-fluid --json --size 8192x8192", "prlimit --as=2500000000 timeout 200");
+    if (outcome.err.find("is not complete") != std::string::npos) {
+        GTEST_SKIP() << "this driver needs more address space: " << outcome.err;
+    }
+    EXPECT_EQ(outcome.code, 4) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("8192x8192"), HasSubstr("not enough memory"),
+                                   HasSubstr("1342177280 bytes"), HasSubstr("--size")));
+    EXPECT_EQ(outcome.err.find("internal fault"), std::string::npos);
+    EXPECT_EQ(nlohmann::json::parse(outcome.out).at("problems").size(), 1U);
+    EXPECT_THAT(files(), ElementsAre("p.pos", "s.json"));
+}
+
+TEST_F(Files, ValidationMessagesAreShownAndMakeTheExitCodeThree) {
+    const Outcome clean = run("render s.json -o a.png --validation --json");
+    if (clean.err.find("the layer is not installed") != std::string::npos) {
+        GTEST_SKIP() << clean.err;
+    }
+    EXPECT_EQ(clean.code, 0) << clean.err;
+    // The layer's own switch for advice: a source of messages that are no fault.
+    const Outcome outcome = run("render s.json -o a.png --validation --json",
+                                "env VK_LAYER_ENABLES=VK_VALIDATION_FEATURE_ENABLE_BEST_PRACTICES_EXT");
+    const auto summary = nlohmann::json::parse(outcome.out);
+    if (summary.at("validation_messages") == 0) {
+        GTEST_SKIP() << "this layer gives no advice about the frame";
+    }
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("error: validation: "));
+    EXPECT_EQ(summary.at("frames").at("with_fluid"), 1);
+    EXPECT_EQ(summary.at("problems").size(), 1U);
+}
+
 }  // namespace
 }  // namespace sluice::test

@@ -232,6 +232,7 @@ TEST_F(Render, ProbeAgreesWithWhatRenderUses) {
     const auto probe = nlohmann::json::parse(outcome.out);
     EXPECT_TRUE(probe.at("possible").get<bool>());
     EXPECT_TRUE(probe.at("same_device").get<bool>());
+    EXPECT_TRUE(probe.at("egl_devices").is_array());
     EXPECT_EQ(probe.at("gl").at("driver_uuid"), probe.at("vulkan").at("driver_uuid"));
     for (const auto& format : probe.at("formats")) {
         for (const auto& canary : format.at("canaries")) {
