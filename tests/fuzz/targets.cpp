@@ -16,6 +16,7 @@
 #include "encode.hpp"
 #include "gzip.hpp"
 #include "sluice/particles/particles.hpp"
+#include "sluice/scene/scene.hpp"
 
 namespace sluice::fuzz {
 
@@ -95,8 +96,27 @@ void bgeo(std::span<const std::byte> bytes) {
     run(bytes, Format::bgeo, particles::parseBgeo);
 }
 
+void scene(std::span<const std::byte> bytes) {
+    const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    const Result<scene::Scene> read = scene::parseScene(text, "fuzz");
+    if (!read) {
+        require(read.error().code == SLUICE_ERROR_INVALID_ARGUMENT, "a bad scene is an invalid argument");
+        require(read.error().message().starts_with("fuzz"), "an error names the file");
+        require(read.error().message().size() < 1000, "a message is short, whatever the scene holds");
+        return;
+    }
+    const std::string written = scene::writeScene(read.value());
+    const Result<scene::Scene> back = scene::parseScene(written, "again");
+    require(back.ok(), "a scene that was written can be read");
+    require(scene::writeScene(back.value()) == written, "a scene survives writing and reading");
+    const SluiceCamera camera = scene::cameraAt(read.value(), read.value().frames.last, read.value().size);
+    require(std::ranges::all_of(camera.view, [](float value) { return std::isfinite(value); }),
+            "every accepted scene has a camera");
+}
+
 Target targetNamed(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, Target>, 3> kTargets{{{"pos", pos}, {"ply", ply}, {"bgeo", bgeo}}};
+    constexpr std::array<std::pair<std::string_view, Target>, 4> kTargets{
+        {{"pos", pos}, {"ply", ply}, {"bgeo", bgeo}, {"scene", scene}}};
     const auto* found = std::ranges::find(kTargets, name, &std::pair<std::string_view, Target>::first);
     return found == kTargets.end() ? nullptr : found->second;
 }

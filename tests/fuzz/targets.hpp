@@ -13,6 +13,7 @@ using Target = void (*)(std::span<const std::byte>);
 void pos(std::span<const std::byte> bytes);
 void ply(std::span<const std::byte> bytes);
 void bgeo(std::span<const std::byte> bytes);
+void scene(std::span<const std::byte> bytes);
 
 /// Does what a target does when a promise is broken; for the test of the replay itself.
 [[noreturn]] void breakPromise();
