@@ -4,7 +4,9 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdio>
+#include <memory>
 #include <tuple>
 #include <vector>
 
@@ -25,14 +27,21 @@ struct Tally {
     std::uint64_t frames = 0, bad = 0, stale = 0;
 };
 
-struct Kept {
-    std::uint64_t frame;
-    TestTexture colour, depth;
-};
-
 const FormatInfo& formatOf(const SluiceRendererInfo& info, SluiceImageRole role) {
     return *findFormat(info.formats[role]);
 }
+
+/// A frame's fluid images, copied.
+struct Kept {
+    Kept(std::uint64_t number, const FormatInfo& colour_format, const FormatInfo& depth_format)
+        : frame(number),
+          colour(colour_format.gl_internal, colour_format.gl_transfer_format, colour_format.gl_transfer_type, kWidth,
+                 kHeight, nullptr),
+          depth(depth_format.gl_internal, depth_format.gl_transfer_format, depth_format.gl_transfer_type, kWidth,
+                kHeight, nullptr) {}
+    std::uint64_t frame;
+    TestTexture colour, depth;
+};
 
 class InFlightTest : public ShimTest {
   protected:
@@ -66,7 +75,9 @@ class InFlightTest : public ShimTest {
             const Status composited = host_->composite(*screen_);
             ASSERT_TRUE(composited) << composited.error().message();
             for (std::uint32_t i = 0; i < sets; ++i) {
-                kept.push_back(newKept(host_->frame() + 1 - sets + i));
+                kept.push_back(std::make_unique<Kept>(host_->frame() + 1 - sets + i,
+                                                      formatOf(host_->info(), SLUICE_IMAGE_FLUID_COLOUR),
+                                                      formatOf(host_->info(), SLUICE_IMAGE_FLUID_DEPTH)));
                 copy(reader, images[i][0], kept.back()->colour.name());
                 copy(reader, images[i][1], kept.back()->depth.name());
             }
@@ -99,15 +110,6 @@ class InFlightTest : public ShimTest {
     }
 
   private:
-    [[nodiscard]] std::unique_ptr<Kept> newKept(std::uint64_t frame) const {
-        const FormatInfo& colour = formatOf(host_->info(), SLUICE_IMAGE_FLUID_COLOUR);
-        const FormatInfo& depth = formatOf(host_->info(), SLUICE_IMAGE_FLUID_DEPTH);
-        return std::unique_ptr<Kept>(new Kept{frame,
-                                              TestTexture(colour.gl_internal, colour.gl_transfer_format,
-                                                          colour.gl_transfer_type, kWidth, kHeight, nullptr),
-                                              TestTexture(depth.gl_internal, depth.gl_transfer_format,
-                                                          depth.gl_transfer_type, kWidth, kHeight, nullptr)});
-    }
     static void copy(GLuint reader, std::uint32_t from, std::uint32_t to) {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, reader);
         glFramebufferTexture2D(GL_READ_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, from, 0);
