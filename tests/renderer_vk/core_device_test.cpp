@@ -10,6 +10,7 @@
 #include "device/one_shot.hpp"
 #include "memory/buffer.hpp"
 #include "memory/image.hpp"
+#include "passes/fluid_recorder.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::vk::test {
@@ -140,6 +141,17 @@ TEST_P(ProbeFormat, AWrongTexelFromTheHostIsFound) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, ProbeFormat, ::testing::ValuesIn(formatTable().begin(), formatTable().end()),
                          [](const auto& test) { return std::string(test.param.name); });
+
+TEST(Recorder, RefusesADeviceThatCannotBlendTheThickness) {
+    const std::unique_ptr<Device> device = anyDevice(false);
+    ASSERT_NE(device, nullptr);
+    EXPECT_TRUE(FluidRecorder::create(*device));
+    device->capabilities.blendable_formats &= ~formatBit(SLUICE_FORMAT_R32F);
+    const Result<FluidRecorder> refused = FluidRecorder::create(*device);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, SLUICE_ERROR_UNSUPPORTED);
+    EXPECT_NE(refused.error().message().find("R32F"), std::string::npos) << refused.error().message();
+}
 
 }  // namespace
 }  // namespace sluice::vk::test

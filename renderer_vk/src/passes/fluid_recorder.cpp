@@ -133,6 +133,11 @@ Result<FluidRecorder> FluidRecorder::create(const Device& device) {
         return Error{SLUICE_ERROR_UNSUPPORTED, "shaderStorageImageWriteWithoutFormat",
                      "this device cannot write the shared images from one shader", "use another Vulkan device"};
     }
+    if ((device.capabilities.blendable_formats & formatBit(SLUICE_FORMAT_R32F)) == 0) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "blending of R32F",
+                     "this device cannot blend the fluid's depth and thickness in 32-bit float images",
+                     "use another Vulkan device"};
+    }
     auto state = std::make_unique<State>(device);
     for (std::uint32_t slot = 0; slot < SLUICE_MAX_IMAGE_SETS; ++slot) {
         auto arena = FrameArena::create(device, sizeof(FrameConstants));
