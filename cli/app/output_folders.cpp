@@ -5,9 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
-#include <ranges>
 #include <system_error>
 
 namespace sluice::cli {
@@ -31,8 +29,8 @@ Status tryFolder(const std::filesystem::path& path, const std::filesystem::path&
 }  // namespace
 
 OutputFolders::~OutputFolders() {
-    for (const std::filesystem::path& folder : std::views::reverse(made_)) {
-        (void)rmdir(folder.c_str());  // fails, as it should, if something is in it
+    for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) {
+        (void)rmdir(folder->c_str());  // fails, as it should, if something is in it
     }
 }
 
@@ -43,9 +41,10 @@ Status OutputFolders::makeFolder(const std::filesystem::path& path, const std::f
          at = at.parent_path()) {
         missing.push_back(at);
     }
-    for (const std::filesystem::path& at : std::views::reverse(missing)) {
-        if (std::filesystem::create_directory(at, failure)) {
-            made_.push_back(at);
+    // clang 14 cannot compile libstdc++'s std::views::reverse.
+    for (auto at = missing.rbegin(); at != missing.rend(); ++at) {
+        if (std::filesystem::create_directory(*at, failure)) {
+            made_.push_back(*at);
         }
         if (failure) {
             break;
