@@ -30,15 +30,16 @@ struct FluidRecorder::State {
     const Device& device;
     std::vector<FrameArena> arenas;
     PassImages images;
-    SplatDepthPass splat_depth;
-    TilesPass tiles;
-    FilterPass filter;
-    NormalsPass normals;
-    SplatThicknessPass splat_thickness;
-    BlurThicknessPass blur_thickness;
+    // A pass that no plan has asked for yet is not built.
+    std::optional<SplatDepthPass> splat_depth;
+    std::optional<TilesPass> tiles;
+    std::optional<FilterPass> filter;
+    std::optional<NormalsPass> normals;
+    std::optional<SplatThicknessPass> splat_thickness;
+    std::optional<BlurThicknessPass> blur_thickness;
     ShadePass shade;
-    EchoPass echo;
-    ClearPass clear;
+    std::optional<EchoPass> echo;
+    std::optional<ClearPass> clear;
     std::optional<Plan> plan;
 };
 
@@ -51,6 +52,20 @@ Status take(Result<T> result, T& into) {
         return result.error();
     }
     into = std::move(result).value();
+    return {};
+}
+
+/// Builds a pass that the plan has and the recorder lacks.
+template <typename Pass>
+Status build(const Device& device, const Plan& plan, PassId id, std::optional<Pass>& pass) {
+    if (pass || findPass(plan, id) == nullptr) {
+        return {};
+    }
+    auto made = Pass::create(device);
+    if (!made) {
+        return made.error();
+    }
+    pass = std::move(made).value();
     return {};
 }
 
@@ -146,15 +161,8 @@ Result<FluidRecorder> FluidRecorder::create(const Device& device) {
         }
         state->arenas.push_back(std::move(arena).value());
     }
-    for (const Status& status :
-         {take(makePlaceholder(device), state->images.nothing_to_read),
-          take(makePlaceholder(device), state->images.nothing_to_write),
-          take(makeNearDraw(device), state->images.near_draw), take(SplatDepthPass::create(device), state->splat_depth),
-          take(TilesPass::create(device), state->tiles), take(FilterPass::create(device), state->filter),
-          take(NormalsPass::create(device), state->normals),
-          take(SplatThicknessPass::create(device), state->splat_thickness),
-          take(BlurThicknessPass::create(device), state->blur_thickness), take(EchoPass::create(device), state->echo),
-          take(ClearPass::create(device), state->clear)}) {
+    for (const Status& status : {take(makePlaceholder(device), state->images.nothing_to_read),
+                                 take(makePlaceholder(device), state->images.nothing_to_write)}) {
         if (!status) {
             return status.error();
         }
@@ -166,8 +174,25 @@ Status FluidRecorder::prepare(const Plan& plan) {
     if (state_->plan && *state_->plan == plan) {
         return {};
     }
+    const Device& device = state_->device;
+    for (const Status& status :
+         {build(device, plan, PassId::SplatDepth, state_->splat_depth),
+          build(device, plan, PassId::Tiles, state_->tiles), build(device, plan, PassId::Filter, state_->filter),
+          build(device, plan, PassId::Normals, state_->normals),
+          build(device, plan, PassId::SplatThickness, state_->splat_thickness),
+          build(device, plan, PassId::BlurThickness, state_->blur_thickness),
+          build(device, plan, PassId::Echo, state_->echo), build(device, plan, PassId::Clear, state_->clear)}) {
+        if (!status) {
+            return status;
+        }
+    }
     if (findPass(plan, PassId::Shade) != nullptr) {
-        if (Status status = state_->shade.prepare(state_->device, plan); !status) {
+        if (Status status = state_->shade.prepare(device, plan); !status) {
+            return status;
+        }
+    }
+    if (findPass(plan, PassId::SplatDepth) != nullptr && !state_->images.near_draw) {
+        if (Status status = take(makeNearDraw(device), state_->images.near_draw); !status) {
             return status;
         }
     }
@@ -183,7 +208,10 @@ Status FluidRecorder::prepare(const Plan& plan) {
         // Both lists have room for every tile of the full resolution, the larger of the two.
         std::array<Buffer, 2> lists;
         for (Buffer& list : lists) {
-            if (Status status = take(makeTileList(state_->device, plan.width, plan.height), list); !status) {
+            if (findPass(plan, PassId::Tiles) == nullptr) {
+                break;
+            }
+            if (Status status = take(makeTileList(device, plan.width, plan.height), list); !status) {
                 return status;
             }
         }
@@ -238,31 +266,31 @@ void FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, c
     for (const PlannedPass& pass : plan.passes) {
         switch (pass.id) {
             case PassId::SplatDepth:
-                state_->splat_depth.record(context);
+                state_->splat_depth->record(context);
                 break;
             case PassId::Tiles:
-                state_->tiles.record(context);
+                state_->tiles->record(context);
                 break;
             case PassId::Filter:
-                state_->filter.record(context);
+                state_->filter->record(context);
                 break;
             case PassId::Normals:
-                state_->normals.record(context);
+                state_->normals->record(context);
                 break;
             case PassId::SplatThickness:
-                state_->splat_thickness.record(context);
+                state_->splat_thickness->record(context);
                 break;
             case PassId::BlurThickness:
-                state_->blur_thickness.record(context);
+                state_->blur_thickness->record(context);
                 break;
             case PassId::Shade:
                 state_->shade.record(context);
                 break;
             case PassId::Echo:
-                state_->echo.record(context);
+                state_->echo->record(context);
                 break;
             case PassId::Clear:
-                state_->clear.record(context);
+                state_->clear->record(context);
                 break;
             case PassId::Count:
                 break;
