@@ -110,7 +110,8 @@ TEST(Lifetime, AResizeToAnImpossibleSizeChangesNothing) {
     FakeHost host;
     TestRenderer renderer(host, host.createInfo());
     ASSERT_EQ(renderer.result(), SLUICE_OK) << renderer.error().message;
-    for (const auto& [width, height] : {std::pair{0U, 60U}, std::pair{80U, 0U}, std::pair{SLUICE_MAX_EXTENT + 1, 60U}}) {
+    for (const auto& [width, height] :
+         {std::pair{0U, 60U}, std::pair{80U, 0U}, std::pair{SLUICE_MAX_EXTENT + 1, 60U}}) {
         EXPECT_EQ(api().resize(renderer.get(), width, height, nullptr), SLUICE_ERROR_INVALID_ARGUMENT);
     }
     EXPECT_EQ(host.held().size(), 8U);
