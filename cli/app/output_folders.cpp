@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <system_error>
 
@@ -29,8 +30,9 @@ Status tryFolder(const std::filesystem::path& path, const std::filesystem::path&
 }  // namespace
 
 OutputFolders::~OutputFolders() {
-    for (auto folder = made_.rbegin(); folder != made_.rend(); ++folder) {
-        (void)rmdir(folder->c_str());  // fails, as it should, if something is in it
+    std::reverse(made_.begin(), made_.end());  // the innermost first
+    for (const std::filesystem::path& folder : made_) {
+        (void)rmdir(folder.c_str());  // fails, as it should, if something is in it
     }
 }
 
@@ -41,10 +43,10 @@ Status OutputFolders::makeFolder(const std::filesystem::path& path, const std::f
          at = at.parent_path()) {
         missing.push_back(at);
     }
-    // clang 14 cannot compile libstdc++'s std::views::reverse.
-    for (auto at = missing.rbegin(); at != missing.rend(); ++at) {
-        if (std::filesystem::create_directory(*at, failure)) {
-            made_.push_back(*at);
+    std::reverse(missing.begin(), missing.end());  // clang 14 cannot compile libstdc++'s std::views::reverse
+    for (const std::filesystem::path& at : missing) {
+        if (std::filesystem::create_directory(at, failure)) {
+            made_.push_back(at);
         }
         if (failure) {
             break;
