@@ -91,11 +91,12 @@ Result<RenderSession> createSession(const RenderInputs& inputs) {
         return engine.error();
     }
     auto trace = std::make_unique<Trace>(kTraceCapacity);
+    auto messages = std::make_unique<std::atomic<std::uint32_t>>(0);
     return RenderSession{std::move(trace),
                          std::move(context).value(),
                          std::move(screen).value(),
                          std::move(engine).value(),
-                         std::make_unique<std::atomic<std::uint32_t>>(0),
+                         std::move(messages),
                          std::nullopt,
                          nullptr,
                          {}};
