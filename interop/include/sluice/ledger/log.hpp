@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// The compact append-only log: a header, then chunks; a crash leaves a readable prefix. All numbers little-endian.
+//   header  16 bytes: "SLUICELG", uint32 version (1), uint32 size of an event (48)
+//   chunk    8 bytes: uint32 type, uint32 bytes that follow;  then
+//     1 events    n * 48 bytes of Event
+//     2 actor     ActorId, uint8 ActorKind, uint8 0, name
+//     3 sync      ObjectId, uint8 SyncKind, uint8 0, uint16 flags, uint64 initial, name
+//     4 resource  ObjectId, uint32 layout, ActorId owner, uint16 0, name
+//     5 memory    ObjectId, MemoryFacts (48 bytes)
+//     6 close     empty: the log was ended on purpose
+// Declarations stand before the first event that speaks of them. An unknown chunk type is skipped.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "sluice/ledger/event.hpp"
+#include "sluice/ledger/ledger.hpp"
+#include "sluice/result.hpp"
+
+namespace sluice::ledger {
+
+/// Who gets the contents of a log in its order. Every member may be left empty.
+struct LogSink {
+    std::function<void(ActorId, ActorKind, std::string_view)> actor;
+    std::function<void(ObjectId, SyncKind, std::string_view, std::uint64_t initial, std::uint16_t flags)> sync;
+    std::function<void(ObjectId, std::string_view, std::uint32_t layout, ActorId owner)> resource;
+    std::function<void(ObjectId, const MemoryFacts&)> memory;
+    std::function<void(const Event&)> event;
+};
+[[nodiscard]] LogSink sinkInto(Ledger& ledger);
+
+/// Appends to a file; may be called from any thread. Buffered: what the last flush() or a full buffer wrote survives a
+/// crash. A failed write (disk full) is told once by status(), and later records are dropped and counted.
+class LogWriter {
+  public:
+    /// NOT_FOUND or IO errors name the path. An existing file is replaced.
+    [[nodiscard]] static Result<std::unique_ptr<LogWriter>> create(const std::string& path);
+    LogWriter(const LogWriter&) = delete;
+    LogWriter& operator=(const LogWriter&) = delete;
+    /// Writes the close chunk and flushes.
+    ~LogWriter();
+
+    void declareActor(ActorId id, ActorKind kind, std::string_view name);
+    void declareSync(ObjectId id, SyncKind kind, std::string_view name, std::uint64_t initial, std::uint16_t flags);
+    void declareResource(ObjectId id, std::string_view name, std::uint32_t layout, ActorId owner);
+    void memoryFacts(ObjectId id, const MemoryFacts& facts);
+    /// Fills in the sequence.
+    void record(Event event);
+    void flush();
+    [[nodiscard]] Status status() const;
+
+  private:
+    LogWriter();
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+struct LogSummary {
+    std::uint64_t events = 0;
+    End end = End::Truncated;
+    std::uint64_t first_ns = 0, last_ns = 0;
+};
+/// Reads a whole log into `sink`. Errors (not a log, another version, a chunk of an absurd size, an event of an unknown
+/// kind) name the file, the offset, the expected and the found. A log that ends in the middle of a chunk is read up to
+/// there and is Truncated.
+[[nodiscard]] Result<LogSummary> readLog(const std::string& path, const LogSink& sink);
+
+}  // namespace sluice::ledger
