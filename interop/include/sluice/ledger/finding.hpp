@@ -71,6 +71,7 @@ struct Finding {
     std::string sentence;            ///< one sentence with the names and values of this case
     std::string remedy;              ///< one sentence with the names of this case
     std::vector<std::string> chain;  ///< wait-*: who waits for whom, one line each
+    std::uint64_t count = 1;         ///< how often it was seen: the same kind, object and pair of sites is one Finding
 };
 
 }  // namespace sluice::ledger
