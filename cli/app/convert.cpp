@@ -24,7 +24,8 @@ int convert(const ConvertOptions& options) {
         logError(status.error());
         return kExitInternal;
     }
-    const Result<particles::ParticleSet> set = particles::load(options.input, options.radius);
+    const Result<particles::ParticleSet> set =
+        particles::load(options.input, options.radius, "give it in metres: sluice convert --radius METRES IN OUT");
     if (!set) {
         logError(set.error());
         return kExitBadInput;

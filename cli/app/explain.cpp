@@ -72,6 +72,7 @@ int explain(const ExplainOptions& options) {
         logError(set.error());
         return kExitBadInput;
     }
+    warnOfRadius(options.scene, scene.particles, set.value(), path.value());
     const Result<host::PluginLibrary> library = loadPlugin(options.plugin);
     if (!library) {
         logError(library.error());

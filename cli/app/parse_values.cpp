@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <cmath>
 
 namespace sluice::cli {
 namespace {
@@ -18,12 +19,12 @@ std::int64_t whole(std::string_view text) {
     return failure == std::errc{} && stop == end && text.front() != '-' ? value : kNotWhole;
 }
 
-Error bad(std::string_view what, std::string_view expected, std::string_view found) {
+}  // namespace
+
+Error badValue(std::string_view what, std::string_view expected, std::string_view found) {
     return Error{SLUICE_ERROR_INVALID_ARGUMENT, std::string(what),
                  fmt::format("expected {}, found \"{}\"", expected, found), ""};
 }
-
-}  // namespace
 
 Result<scene::FrameRange> parseFrameRange(std::string_view text) {
     const std::size_t dots = text.find("..");
@@ -32,7 +33,7 @@ Result<scene::FrameRange> parseFrameRange(std::string_view text) {
     const std::int64_t first = whole(left);
     const std::int64_t last = whole(right);
     if (first < 0 || last < first || last > scene::kMaxFrame) {
-        return bad("frames", fmt::format("A..B with 0 <= A <= B <= {}", scene::kMaxFrame), text);
+        return badValue("--frames", fmt::format("A..B with 0 <= A <= B <= {}", scene::kMaxFrame), text);
     }
     return scene::FrameRange{first, last};
 }
@@ -46,7 +47,25 @@ Result<scene::Size> parseSize(std::string_view text) {
             return scene::Size{static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
         }
     }
-    return bad("size", fmt::format("WxH, each 1 to {}", scene::kMaxSize), text);
+    return badValue("--size", fmt::format("WxH, each 1 to {}", scene::kMaxSize), text);
+}
+
+Result<std::uint32_t> parseImageSets(std::string_view text) {
+    const std::int64_t sets = whole(text);
+    if (sets < 1 || sets > SLUICE_MAX_IMAGE_SETS) {
+        return badValue("--image-sets", fmt::format("1 to {}", SLUICE_MAX_IMAGE_SETS), text);
+    }
+    return static_cast<std::uint32_t>(sets);
+}
+
+Result<float> parseRadius(std::string_view text) {
+    float radius = 0.0F;
+    const char* end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, radius);
+    if (failure != std::errc{} || stop != end || !std::isfinite(radius) || radius <= 0.0F) {
+        return badValue("--radius", "metres above 0", text);
+    }
+    return radius;
 }
 
 }  // namespace sluice::cli

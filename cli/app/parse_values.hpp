@@ -13,5 +13,12 @@ namespace sluice::cli {
 [[nodiscard]] Result<scene::FrameRange> parseFrameRange(std::string_view text);
 /// "WxH", each 1 to 16384.
 [[nodiscard]] Result<scene::Size> parseSize(std::string_view text);
+/// 1 to SLUICE_MAX_IMAGE_SETS.
+[[nodiscard]] Result<std::uint32_t> parseImageSets(std::string_view text);
+/// Metres, above 0.
+[[nodiscard]] Result<float> parseRadius(std::string_view text);
+
+/// What all of them answer to a wrong text.
+[[nodiscard]] Error badValue(std::string_view what, std::string_view expected, std::string_view found);
 
 }  // namespace sluice::cli

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "app/interrupt.hpp"
+#include "app/log.hpp"
 #include "report/progress.hpp"
 
 namespace sluice::cli {
@@ -18,11 +19,18 @@ Result<RenderInputs> readScene(const RenderOptions& options) {
     }
     RenderInputs inputs;
     inputs.scene = std::move(read).value();
+    inputs.scene_file = options.scene;
     if (!options.particles.empty()) {
         inputs.scene.particles.path = options.particles;
     }
     if (options.view) {
         inputs.scene.fluid.view = *options.view;
+    }
+    if (inputs.scene.particles.path.empty()) {
+        return Error{
+            SLUICE_ERROR_INVALID_ARGUMENT, options.scene, "/particles/path: the scene names no particle file",
+            "give --particles FILE, or set \"particles\": {\"path\": \"FILE\"} in the scene; to make a file: sluice "
+            "generate pool -o pool.pos"};
     }
     inputs.frames = options.frames.value_or(inputs.scene.frames);
     inputs.size = options.size.value_or(inputs.scene.size);
@@ -30,10 +38,6 @@ Result<RenderInputs> readScene(const RenderOptions& options) {
 }
 
 Result<std::filesystem::path> particlePath(const scene::ParticleSource& source, std::int64_t frame) {
-    if (source.path.empty()) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "/particles/path", "the scene names no particle file",
-                     "add it to the scene, or give --particles FILE"};
-    }
     return particles::Sequence{source.path}.path(frame);
 }
 
@@ -48,11 +52,21 @@ void transform(particles::ParticleSet& set, const scene::ParticleSource& source)
 }
 
 Result<particles::ParticleSet> loadParticles(const scene::ParticleSource& source, const std::filesystem::path& path) {
-    Result<particles::ParticleSet> set = particles::load(path, source.radius);
+    Result<particles::ParticleSet> set = particles::load(
+        path, source.radius,
+        R"(set "particles": {"radius": METRES} in the scene, or give the file one: sluice convert --radius)");
     if (set) {
         transform(set.value(), source);
     }
     return set;
+}
+
+void warnOfRadius(const std::string& scene_file, const scene::ParticleSource& source, const particles::ParticleSet& set,
+                  const std::filesystem::path& path) {
+    if (set.radius_given) {
+        log(SLUICE_LOG_WARNING, fmt::format("{}: holds no particle radius; taking the {} m of /particles/radius in {}",
+                                            path.string(), source.radius, scene_file));
+    }
 }
 
 namespace {
@@ -98,6 +112,7 @@ Status checkInputs(RenderInputs& inputs, bool progress) {
             return set.error();
         }
         if (!inputs.first) {
+            warnOfRadius(inputs.scene_file, inputs.scene.particles, set.value(), path.value());
             inputs.first = LoadedParticles{path.value(), std::move(set).value()};
         }
     }

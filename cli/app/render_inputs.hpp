@@ -19,7 +19,8 @@ struct LoadedParticles {
 };
 
 struct RenderInputs {
-    scene::Scene scene;
+    std::string scene_file;  ///< for messages
+    scene::Scene scene;      ///< it names particles
     scene::FrameRange frames;
     scene::Size size;
     std::optional<Environment> environment;
@@ -27,11 +28,12 @@ struct RenderInputs {
     std::optional<LoadedParticles> first;
 };
 
-/// The scene with the command line's overrides. Reads the scene file only.
+/// The scene with the command line's overrides. Reads the scene file only. A scene without particles is an error.
 [[nodiscard]] Result<RenderInputs> readScene(const RenderOptions& options);
 
-/// Reads the environment map and every particle file once, so that a bad file is found before the first output.
-/// Draws a progress bar if `progress`. Ends early, with success, when interrupted() (interrupt.hpp).
+/// Reads the environment map and every particle file once, so that a bad file is found before the first output. Warns
+/// of a radius that is not the first file's own. Draws a progress bar if `progress`. Ends early, with success, when
+/// interrupted() (interrupt.hpp).
 [[nodiscard]] Status checkInputs(RenderInputs& inputs, bool progress);
 
 /// The file of `frame`.
@@ -40,6 +42,10 @@ struct RenderInputs {
 /// Reads a particle file into world space.
 [[nodiscard]] Result<particles::ParticleSet> loadParticles(const scene::ParticleSource& source,
                                                            const std::filesystem::path& path);
+
+/// One line of warning if `set`, read from `path`, has the radius of the scene because the file holds none.
+void warnOfRadius(const std::string& scene_file, const scene::ParticleSource& source, const particles::ParticleSet& set,
+                  const std::filesystem::path& path);
 
 /// world = scale * file + translate, radius and velocity scaled.
 void transform(particles::ParticleSet& set, const scene::ParticleSource& source);

@@ -112,9 +112,24 @@ Result<ParticleSet> parse(std::span<const std::byte> bytes, Format format, const
     return parseBgeo(bytes, name);
 }
 
+/// Gives a set whose file holds no radius the one that the caller has for such files.
+Status giveRadius(ParticleSet& set, const std::string& name, float radius, std::string_view remedy) {
+    if (!usableRadius(radius)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
+                     radius == 0.0F
+                         ? "the file holds no particle radius"
+                         : fmt::format("the file holds no particle radius and the one given is {}, not from {} to {} m",
+                                       radius, kMinRadius, kMaxRadius),
+                     std::string(remedy)};
+    }
+    set.radius = radius;
+    set.radius_given = true;
+    return {};
+}
+
 }  // namespace
 
-Result<ParticleSet> load(const std::filesystem::path& path, float default_radius) {
+Result<ParticleSet> load(const std::filesystem::path& path, float default_radius, std::string_view radius_remedy) {
     const std::string name = path.string();
     const std::optional<Format> format = formatOf(path);
     if (!format) {
@@ -128,12 +143,9 @@ Result<ParticleSet> load(const std::filesystem::path& path, float default_radius
         }
         Result<ParticleSet> set = parse(bytes.value(), *format, name);
         if (set && set.value().radius == 0.0F) {
-            if (!usableRadius(default_radius)) {
-                return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
-                             fmt::format("the file holds no particle radius and the one given is {}", default_radius),
-                             "give the radius in metres in the scene or on the command line"};
+            if (Status status = giveRadius(set.value(), name, default_radius, radius_remedy); !status) {
+                return status.error();
             }
-            set.value().radius = default_radius;
         }
         return set;
     } catch (const std::bad_alloc&) {

@@ -36,7 +36,8 @@ double maximum(const std::vector<double>& values) {
 }
 
 std::string passTable(const RunSummary& s) {
-    std::vector<std::vector<std::string>> rows{{"pass", "calls", "median ms", "elements", "", "bytes"}};
+    std::vector<std::vector<std::string>> rows{
+        {"pass", "calls", "median ms", "elements up to", "", "bytes, each once"}};
     double total = 0.0;
     for (const PassRow& pass : s.passes) {
         total += pass.median_ms;

@@ -14,7 +14,9 @@ SluiceFluid defaultFluid() {
     fluid.scatter_colour[1] = 0.055F;
     fluid.scatter_colour[2] = 0.075F;
     fluid.index_of_refraction = 1.33F;
-    fluid.specular_power = 250.0F;
+    // Half its peak at 1.5 degrees of the normal: about the disc that the sky draws (1 to 2.5 degrees, halved by the
+    // mirror). On a calm pool whose slopes differ by few degrees a broader lobe (250: 4.3 degrees) is a milky patch.
+    fluid.specular_power = 2000.0F;
     fluid.splat_radius = 1.5F;
     fluid.filter = SLUICE_FILTER_NARROW_RANGE;
     fluid.filter_iterations = 3;
@@ -36,7 +38,8 @@ SluiceSky defaultSky() {
     const Vec3 horizon{0.60F, 0.72F, 0.85F};
     const Vec3 ground{0.20F, 0.18F, 0.15F};
     const Vec3 to_sun{0.5017864F, 0.7754881F, 0.3831823F};  // beyond the pool as the camera sees it: the water glitters
-    const Vec3 sun{12.0F, 11.0F, 9.0F};
+    // Water mirrors 2 % of it head-on: a fiftieth of this must still be white for a glint to look like the sun.
+    const Vec3 sun{60.0F, 55.0F, 45.0F};
     for (std::size_t i = 0; i < 3; ++i) {
         sky.zenith[i] = zenith[i];
         sky.horizon[i] = horizon[i];

@@ -6,26 +6,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+
+#include "nearest.hpp"
 
 namespace sluice::scene {
 namespace {
-
-/// Levenshtein distance, one row at a time.
-std::size_t distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i;
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U);
-            diagonal = row[j];
-            row[j] = std::min({row[j] + 1, row[j - 1] + 1, change});
-        }
-    }
-    return row.back();
-}
 
 /// A value as the file has it, shortened so that a message stays one line.
 std::string shown(const nlohmann::json& value) {
@@ -189,13 +174,9 @@ void ObjectReader::finish() {
         if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
             continue;
         }
-        const std::string_view sought = key;
-        const auto nearest = std::min_element(known_.begin(), known_.end(), [sought](auto a, auto b) {
-            return distance(a, sought) < distance(b, sought);
-        });
         failure_ = Error{SLUICE_ERROR_INVALID_ARGUMENT, name_,
                          fmt::format("{}: unknown key with value {}; the nearest known key is \"{}\"",
-                                     at(shownKey(key)), shown(value), *nearest),
+                                     at(shownKey(key)), shown(value), nearest(key, known_)),
                          fmt::format("known keys here: {}", fmt::join(known_, ", "))};
     }
 }

@@ -167,12 +167,16 @@ TEST(Load, ASetWithoutRadiusTakesTheDefaultOrTellsHowToGiveOne) {
     const Result<ParticleSet> with = load(folder / "a.ply", 0.5F);
     ASSERT_TRUE(with.ok());
     EXPECT_EQ(with.value().radius, 0.5F);
-    const Result<ParticleSet> without = load(folder / "a.ply");
+    EXPECT_TRUE(with.value().radius_given);
+    const Result<ParticleSet> without = load(folder / "a.ply", 0.0F, "write it on the wall");
     ASSERT_FALSE(without.ok());
-    EXPECT_THAT(without.error().message(), HasSubstr("holds no particle radius and the one given is 0"));
-    EXPECT_THAT(without.error().message(), HasSubstr("give the radius"));
+    EXPECT_THAT(without.error().message(), HasSubstr("holds no particle radius (write it on the wall)"));
+    const Result<ParticleSet> absurd = load(folder / "a.ply", 5000.0F);
+    ASSERT_FALSE(absurd.ok());
+    EXPECT_THAT(absurd.error().message(), HasSubstr("the one given is 5000, not from 1e-06 to 1000 m"));
     ASSERT_TRUE(save(folder / "a.bgeo", someSet()).ok());
     EXPECT_EQ(load(folder / "a.bgeo", 0.5F).value().radius, someSet().radius) << "the file's own radius wins";
+    EXPECT_FALSE(load(folder / "a.bgeo", 0.5F).value().radius_given);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sluice/result.hpp"
@@ -20,6 +21,7 @@ struct ParticleSet {
     std::vector<float> position;
     std::vector<float> velocity;
     std::vector<float> colour;
+    bool radius_given = false;  ///< the radius is not the file's: load took its default
     [[nodiscard]] std::size_t count() const { return position.size() / 3; }
 };
 
@@ -37,8 +39,10 @@ inline constexpr std::uint64_t kMaxFileBytes = 1ULL << 34;
 
 /// Reads a regular file and parses it by its ending (.pos, .ply, .bgeo, .bgeo.gz); anything else, such as a pipe, is
 /// refused without waiting for it. A particle set without a radius gets
-/// `default_radius`; if that is 0 too, it is an error that tells how to give one.
-[[nodiscard]] Result<ParticleSet> load(const std::filesystem::path& path, float default_radius = 0.0F);
+/// `default_radius`; if that is 0 too, it is an error whose remedy is `radius_remedy`: only the caller knows where its
+/// user writes the radius.
+[[nodiscard]] Result<ParticleSet> load(const std::filesystem::path& path, float default_radius = 0.0F,
+                                       std::string_view radius_remedy = "give the radius in metres");
 
 /// Writes .pos, .ply (binary little-endian) or .bgeo by ending, whole or not at all.
 [[nodiscard]] Status save(const std::filesystem::path& path, const ParticleSet& set);

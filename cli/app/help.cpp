@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: MIT
+#include "app/help.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <vector>
+
+#include "scene/nearest.hpp"
+
+namespace sluice::cli {
+namespace {
+
+bool named(const CLI::App* command) {
+    return !command->get_name().empty();
+}
+
+class HelpFormatter : public CLI::Formatter {
+  public:
+    HelpFormatter() {
+        column_width(28);
+        label("Positionals", "Arguments");
+    }
+
+    /// CLI11 would add defaults, REQUIRED and the descriptions of validators here.
+    std::string make_option_opts(const CLI::Option* option) const override {
+        return option->get_type_size() == 0 || option->get_type_name().empty() ? "" : " " + option->get_type_name();
+    }
+
+    std::string make_usage(const CLI::App* app, std::string name) const override {
+        std::string text = "Usage: " + name;
+        for (const CLI::Option* option : app->get_options()) {
+            if (option->get_positional()) {
+                text += " " + option->get_name(true);
+            }
+        }
+        for (const CLI::Option* option : app->get_options()) {
+            if (option->nonpositional() && option->get_required()) {
+                text += fmt::format(" -{}{}", option->get_snames().front(), make_option_opts(option));
+            }
+        }
+        text += app->get_subcommands(named).empty() ? " [OPTIONS]\n" : " COMMAND\n";
+        return text;
+    }
+};
+
+}  // namespace
+
+std::shared_ptr<CLI::Formatter> helpFormatter() {
+    return std::make_shared<HelpFormatter>();
+}
+
+const char* exitCodesHelp() {
+    return "Exit codes:\n"
+           "  0    done\n"
+           "  1    the command line is wrong\n"
+           "  2    there is no such command; or an input file is missing or wrong: no\n"
+           "       output was written for it\n"
+           "  3    the renderer is missing or failed, or nothing can be shared here: the\n"
+           "       host's own frames were still written, without fluid; or --validation\n"
+           "       had something to say\n"
+           "  4    no OpenGL, not enough memory, an output that cannot be written, or an\n"
+           "       internal fault\n"
+           "  130  interrupted; the file in hand was finished\n";
+}
+
+std::string unknownCommand(const CLI::App& app, const std::string& word) {
+    std::vector<std::string> names;
+    for (const CLI::App* command : app.get_subcommands(named)) {
+        names.push_back(command->get_name());
+    }
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    const std::string_view guess = scene::nearest(word, views);
+    return fmt::format("sluice: error: \"{}\" is no command; the nearest is \"{}\" ({} --help lists them)\n", word,
+                       guess, app.get_parent() == nullptr ? "sluice" : "sluice " + app.get_name());
+}
+
+}  // namespace sluice::cli
