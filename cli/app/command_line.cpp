@@ -228,7 +228,7 @@ int parseAndRun(int argc, const char* const* argv) {
     }
     if (const std::string wrong = wrongCommand(line.app, argc, argv); !wrong.empty()) {
         (void)std::fputs(wrong.c_str(), stderr);
-        return kExitBadInput;
+        return kExitUsage;
     }
     try {
         line.app.parse(argc, argv);

@@ -39,7 +39,7 @@ std::uint64_t leastBytes(const Element& element) {
     for (const Property& property : element.properties) {
         least += sizeOf(property.list_count.value_or(property.type));
     }
-    return least;
+    return std::max<std::uint64_t>(least, 1);  // an element has properties, each of a byte at least
 }
 
 template <typename T>

@@ -75,7 +75,7 @@ Status parseElement(Header& header, std::string_view rest, const std::string& na
     if (std::ranges::find(header.elements, element, &Element::name) != header.elements.end()) {
         return failure(name, atLine(line), "each element once", fmt::format("{} again", printable(element)));
     }
-    if (const Status ok = element == "vertex" ? checkCount(name, value, atLine(line)) : Status(); !ok) {
+    if (Status ok = element == "vertex" ? checkCount(name, value, atLine(line)) : Status(); !ok) {
         return ok;
     }
     header.elements.push_back({std::string(element), value, line, {}});

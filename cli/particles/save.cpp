@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <new>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -28,7 +29,7 @@ Error unwritable(const std::string& name, int code) {
 /// A file under a name of its own that is removed again unless it is renamed.
 class TemporaryFile {
   public:
-    explicit TemporaryFile(const std::filesystem::path& target) : path_(target) {
+    explicit TemporaryFile(std::filesystem::path target) : path_(std::move(target)) {
         static std::atomic<unsigned> number{0};
         path_ += fmt::format(".tmp-{}-{}", getpid(), number.fetch_add(1));
         fd_ = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -19,7 +19,7 @@ std::string withoutTag(const std::string& message) {
     constexpr std::size_t kHead = 160;
     constexpr std::size_t kTail = 80;
     const std::size_t end = message.find("] ");
-    const std::string text = end == std::string::npos ? message : message.substr(end + 2);
+    std::string text = end == std::string::npos ? message : message.substr(end + 2);
     if (text.size() <= kHead + kTail) {
         return text;
     }

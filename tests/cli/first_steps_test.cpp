@@ -69,7 +69,7 @@ TEST_F(FirstSteps, HelpPagesFitATerminalAndShowNothingOfTheLibraryBeneath) {
 TEST_F(FirstSteps, AMistypedCommandIsOneLineWithTheWordAndTheNearestCommand) {
     const auto answers = [this](const char* words, const char* word, const char* nearest, const char* help) {
         const Outcome outcome = run(words);
-        EXPECT_EQ(outcome.code, 2) << words;
+        EXPECT_EQ(outcome.code, 1) << words;
         EXPECT_THAT(linesOf(outcome.err), SizeIs(1)) << outcome.err;
         EXPECT_THAT(outcome.err, AllOf(HasSubstr(word), HasSubstr(nearest), HasSubstr(help)));
         EXPECT_THAT(outcome.out, IsEmpty());

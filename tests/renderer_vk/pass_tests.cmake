@@ -7,7 +7,7 @@ target_link_libraries(sluice_pass_rig PUBLIC sluice_renderer_vk_core glm::glm PR
 target_include_directories(sluice_pass_rig PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 
 sluice_add_test(renderer_vk_plan_test pass_plan_test.cpp LIBS sluice_pass_rig rapidcheck rapidcheck_gtest)
-sluice_add_test(renderer_vk_pass_test
+sluice_add_test(renderer_vk_pass_test OPTIMISED
     pass_filter_test.cpp
     pass_shade_test.cpp
     pass_splat_test.cpp

@@ -31,10 +31,10 @@ void main() {
 }  // namespace
 
 LinearDepthMap linearDepthMap(const std::array<float, 16>& projection) {
-    const double p10 = double{projection[10]};
-    const double p11 = double{projection[11]};
-    const double p14 = double{projection[14]};
-    const double p15 = double{projection[15]};
+    const double p10{projection[10]};
+    const double p11{projection[11]};
+    const double p14{projection[14]};
+    const double p15{projection[15]};
     return {.n0 = p15 - p14, .n1 = -2.0 * p15, .d0 = p11 - p10, .d1 = -2.0 * p11};
 }
 

@@ -28,7 +28,7 @@ Status statusOf(std::string_view call, SluiceResult result, const SluiceError& s
 
 Result<Renderer> Renderer::create(const SluiceRendererApi& api, const SluiceHostServices& services,
                                   const SluiceCreateInfo& info) {
-    SluiceError said = sized<SluiceError>();
+    auto said = sized<SluiceError>();
     SluiceRenderer* handle = nullptr;
     const SluiceResult result = api.create(&services, &info, &handle, &said);
     if (result != SLUICE_OK) {
@@ -51,7 +51,7 @@ Renderer::~Renderer() {
 }
 
 Result<SluiceRendererInfo> Renderer::info() const {
-    SluiceRendererInfo info = sized<SluiceRendererInfo>();
+    auto info = sized<SluiceRendererInfo>();
     if (const SluiceResult result = api_->info(handle_, &info); result != SLUICE_OK) {
         return rendererError("info", result, sized<SluiceError>());
     }
@@ -59,25 +59,25 @@ Result<SluiceRendererInfo> Renderer::info() const {
 }
 
 Status Renderer::resize(std::uint32_t width, std::uint32_t height) const {
-    SluiceError said = sized<SluiceError>();
+    auto said = sized<SluiceError>();
     const SluiceResult result = api_->resize(handle_, width, height, &said);
     return statusOf("resize", result, said);
 }
 
 Status Renderer::setParticles(const SluiceParticles& particles) const {
-    SluiceError said = sized<SluiceError>();
+    auto said = sized<SluiceError>();
     const SluiceResult result = api_->set_particles(handle_, &particles, &said);
     return statusOf("set_particles", result, said);
 }
 
 Status Renderer::setEnvironment(const SluiceEnvironment* environment) const {
-    SluiceError said = sized<SluiceError>();
+    auto said = sized<SluiceError>();
     const SluiceResult result = api_->set_environment(handle_, environment, &said);
     return statusOf("set_environment", result, said);
 }
 
 Status Renderer::submit(const SluiceFrame& frame) const {
-    SluiceError said = sized<SluiceError>();
+    auto said = sized<SluiceError>();
     const SluiceResult result = api_->submit_frame(handle_, &frame, &said);
     return statusOf("submit_frame", result, said);
 }
@@ -85,7 +85,7 @@ Status Renderer::submit(const SluiceFrame& frame) const {
 Result<SluiceFrameStats> Renderer::stats(std::uint64_t frame, std::uint64_t timeout_ns) const {
     const std::uint64_t begin = monotonicNanoseconds();
     for (;;) {
-        SluiceFrameStats stats = sized<SluiceFrameStats>();
+        auto stats = sized<SluiceFrameStats>();
         const SluiceResult result = api_->poll(handle_, frame, &stats);
         if (result == SLUICE_OK) {
             return stats;

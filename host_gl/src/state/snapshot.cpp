@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
 #include <map>
 
 #include "screen/gl_guards.hpp"
@@ -26,16 +28,16 @@ std::vector<std::string> differences(const StateSnapshot& before, const StateSna
     for (const auto& [name, value] : before) {
         const auto found = remaining.find(name);
         if (found == remaining.end()) {
-            lines.push_back(name + ": " + value + " -> (not queried)");
+            lines.push_back(fmt::format("{}: {} -> (not queried)", name, value));
             continue;
         }
         if (found->second != value) {
-            lines.push_back(name + ": " + value + " -> " + found->second);
+            lines.push_back(fmt::format("{}: {} -> {}", name, value, found->second));
         }
         remaining.erase(found);
     }
     for (const auto& [name, value] : remaining) {
-        lines.push_back(name + ": (not queried) -> " + value);
+        lines.push_back(fmt::format("{}: (not queried) -> {}", name, value));
     }
     return lines;
 }

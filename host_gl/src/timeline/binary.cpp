@@ -15,7 +15,7 @@ namespace {
 
 class BinaryTimeline final : public HostTimeline {
   public:
-    explicit BinaryTimeline(const TimelineDeps& deps) : deps_(deps) {}
+    explicit BinaryTimeline(TimelineDeps deps) : deps_(std::move(deps)) {}
 
     [[nodiscard]] SluiceTimelineKind kind() const override { return SLUICE_TIMELINE_BINARY; }
 

@@ -19,8 +19,8 @@ constexpr std::uint64_t kSliceNs = 50'000'000;
 
 }  // namespace
 
-BridgeThread::BridgeThread(BridgeContext context, const TimelineDeps& deps)
-    : context_(std::move(context)), deps_(deps) {}
+BridgeThread::BridgeThread(BridgeContext context, TimelineDeps deps)
+    : context_(std::move(context)), deps_(std::move(deps)) {}
 
 Result<std::unique_ptr<BridgeThread>> BridgeThread::start(BridgeContext context, const TimelineDeps& deps) {
     std::unique_ptr<BridgeThread> bridge(new BridgeThread(std::move(context), deps));

@@ -49,7 +49,7 @@ class BridgeThread {
         std::uint64_t value;
     };
 
-    BridgeThread(BridgeContext context, const TimelineDeps& deps);
+    BridgeThread(BridgeContext context, TimelineDeps deps);
     void run();
     void keep(const Promise& promise);
     [[nodiscard]] Status waitForFence(const Promise& promise) const;

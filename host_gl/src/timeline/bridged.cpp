@@ -19,8 +19,8 @@ namespace {
 
 class BridgedTimeline final : public HostTimeline {
   public:
-    BridgedTimeline(const TimelineDeps& deps, std::unique_ptr<BridgeThread> bridge)
-        : deps_(deps), bridge_(std::move(bridge)) {}
+    BridgedTimeline(TimelineDeps deps, std::unique_ptr<BridgeThread> bridge)
+        : deps_(std::move(deps)), bridge_(std::move(bridge)) {}
 
     [[nodiscard]] SluiceTimelineKind kind() const override { return SLUICE_TIMELINE_BRIDGED; }
 

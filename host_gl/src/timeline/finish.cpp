@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 
 #include <memory>
+#include <utility>
 
 #include "timeline/backends.hpp"
 #include "timeline/cpu_wait.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 class FinishTimeline final : public HostTimeline {
   public:
-    explicit FinishTimeline(const TimelineDeps& deps) : deps_(deps) {}
+    explicit FinishTimeline(TimelineDeps deps) : deps_(std::move(deps)) {}
 
     [[nodiscard]] SluiceTimelineKind kind() const override { return SLUICE_TIMELINE_FINISH; }
 

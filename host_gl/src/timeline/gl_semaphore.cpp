@@ -20,7 +20,8 @@ constexpr GLenum kType = 0x95B3;           // GL_SEMAPHORE_TYPE_NV
 constexpr GLint kTypeTimeline = 0x95B5;    // GL_SEMAPHORE_TYPE_TIMELINE_NV
 
 std::vector<GLenum> generalLayouts(std::size_t count) {
-    return std::vector<GLenum>(count, GL_LAYOUT_GENERAL_EXT);
+    std::vector<GLenum> layouts(count, GL_LAYOUT_GENERAL_EXT);
+    return layouts;
 }
 
 /// What `call`, made inside a GlErrorScope, was refused for.
@@ -96,7 +97,7 @@ Status GlSemaphore::wait(std::span<const std::uint32_t> textures) const {
 }
 
 Result<UniqueFd> exportTimeline(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value) {
-    SluiceError said = sized<SluiceError>();
+    auto said = sized<SluiceError>();
     std::int32_t fd = -1;
     const SluiceResult result = deps.api->timeline_export(deps.renderer, direction, value, &fd, &said);
     if (result != SLUICE_OK || fd < 0) {

@@ -76,7 +76,8 @@ Result<std::size_t> selectDevice(std::span<const DeviceCandidate> candidates, co
             lacking = fmt::format("'{:.120}' lacks {}", candidates[i].capabilities.device_name, missing);
         }
     }
-    if (!lacking.empty()) {
+    // Without a host every device was a match, so what was lacking has been noted.
+    if (!lacking.empty() || host == nullptr) {
         return Error{SLUICE_ERROR_UNSUPPORTED, "Vulkan device", lacking, "update its driver"};
     }
     std::string devices;

@@ -112,7 +112,7 @@ Status SluiceRenderer::resize(std::uint32_t width, std::uint32_t height) {
     if (Status status = checkSize(width, height); !status) {
         return status;  // the only failure that leaves the images as they were
     }
-    const Status idle = quiesce();
+    Status idle = quiesce();
     if (images_) {
         images_->retire();
         abandoned_.push_back(std::move(images_));
