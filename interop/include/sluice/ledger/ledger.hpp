@@ -32,6 +32,7 @@ struct LedgerOptions {
     std::uint64_t useless_wait_ns = 0;            ///< useless and over-waits cheaper than this are not told
     std::size_t max_findings = 10000;             ///< further ones are counted, not kept
     bool performance = true;                      ///< tell useless-wait and over-wait
+    bool prune = true;                            ///< false: forget no signal; memory grows with the run (for tests)
 };
 
 /// An actor that stands still, for the watchdog and for the end of a log.

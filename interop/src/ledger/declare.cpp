@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// Names and numbers: what is declared, and what the log speaks of without having declared it.
+#include "state.hpp"
+
+namespace sluice::ledger {
+namespace {
+
+/// The slot for a new object under `id`. Its predecessor keeps its own while queued events may still mean it.
+template <typename Object>
+Slot takeSlot(std::deque<Object>& objects, IdMap& map, std::vector<Slot>& retired, ObjectId id, bool queued) {
+    Slot slot = map.find(id);
+    if (slot != kNoSlot && !queued) {
+        objects[slot] = Object{};
+        return slot;
+    }
+    if (slot != kNoSlot) {
+        retired.push_back(slot);
+    }
+    if (!queued && !retired.empty()) {
+        slot = retired.back();
+        retired.pop_back();
+        objects[slot] = Object{};
+    } else {
+        slot = static_cast<Slot>(objects.size());
+        objects.emplace_back();
+    }
+    map.set(id, slot);
+    return slot;
+}
+
+}  // namespace
+
+void Ledger::declareActor(ActorId id, ActorKind kind, std::string_view name) {
+    Actor& actor = state_->actor(id);
+    // A number used again keeps its clock: the new actor is taken to begin when the old one has ended.
+    actor.kind = kind;
+    actor.name = name;
+    actor.ended = false;
+}
+
+void Ledger::declareSync(ObjectId id, SyncKind kind, std::string_view name, std::uint64_t initial,
+                         std::uint16_t flags) {
+    const Slot slot = takeSlot(state_->syncs, state_->sync_slots, state_->retired_syncs, id, state_->held != 0);
+    Sync& sync = state_->syncs[slot];
+    sync.id = id;
+    sync.kind = kind;
+    sync.flags = flags;
+    sync.name = name;
+    sync.initial = sync.current = initial;
+}
+
+void Ledger::declareResource(ObjectId id, std::string_view name, std::uint32_t layout, ActorId owner) {
+    const Slot old = state_->resource_slots.find(id);
+    if (old != kNoSlot) {
+        for (ReadMark& mark : state_->resources[old].reads) {
+            state_->settleWitness(state_->resources[old], mark);
+        }
+    }
+    const Slot slot =
+        takeSlot(state_->resources, state_->resource_slots, state_->retired_resources, id, state_->held != 0);
+    Resource& resource = state_->resources[slot];
+    resource.id = id;
+    resource.name = name;
+    resource.layout = layout;
+    resource.owner = owner;
+}
+
+void Ledger::memoryFacts(ObjectId id, const MemoryFacts& facts) {
+    state_->resources[state_->resourceSlot(id)].told = facts;
+}
+
+Actor& Ledger::State::actor(ActorId id) {
+    const Slot slot = actor_slots.find(id);
+    if (slot != kNoSlot) {
+        return actors[slot];
+    }
+    Actor& fresh = actors.emplace_back();
+    fresh.id = id;
+    fresh.slot = static_cast<Slot>(actors.size() - 1);
+    fresh.name = "actor " + std::to_string(id);
+    actor_slots.set(id, fresh.slot);
+    return fresh;
+}
+
+Slot Ledger::State::syncSlot(ObjectId id) {
+    const Slot slot = sync_slots.find(id);
+    if (slot != kNoSlot) {
+        return slot;
+    }
+    Sync& fresh = syncs.emplace_back();
+    fresh.id = id;
+    fresh.name = "sync " + std::to_string(id);
+    sync_slots.set(id, static_cast<Slot>(syncs.size() - 1));
+    return static_cast<Slot>(syncs.size() - 1);
+}
+
+Slot Ledger::State::resourceSlot(ObjectId id) {
+    const Slot slot = resource_slots.find(id);
+    if (slot != kNoSlot) {
+        return slot;
+    }
+    Resource& fresh = resources.emplace_back();
+    fresh.id = id;
+    fresh.name = "resource " + std::to_string(id);
+    resource_slots.set(id, static_cast<Slot>(resources.size() - 1));
+    return static_cast<Slot>(resources.size() - 1);
+}
+
+Slot Ledger::State::objectSlot(const Event& event) {
+    switch (event.kind) {
+        case EventKind::Signal:
+        case EventKind::Wait:
+        case EventKind::WaitBegin:
+            return syncSlot(event.object);
+        case EventKind::Submit:
+            return actor(static_cast<ActorId>(event.object)).slot;
+        case EventKind::Read:
+        case EventKind::Write:
+        case EventKind::Release:
+        case EventKind::Acquire:
+        case EventKind::Layout:
+        case EventKind::Names:
+        case EventKind::Export:
+        case EventKind::Import:
+        case EventKind::Witness:
+            return resourceSlot(event.object);
+        case EventKind::Destroy:
+            if (event.aux == static_cast<std::uint16_t>(ObjectClass::Sync)) {
+                return syncSlot(event.object);
+            }
+            return event.aux == static_cast<std::uint16_t>(ObjectClass::Resource) ? resourceSlot(event.object)
+                                                                                  : kNoSlot;
+        default:
+            return kNoSlot;
+    }
+}
+
+std::size_t Ledger::State::bytes() const {
+    std::size_t sum = sizeof(State) + findings.capacity() * sizeof(Finding) + fds.size() * (sizeof(Fd) + 48) +
+                      known.size() * (sizeof(Key) + 48);
+    for (const Actor& actor : actors) {
+        sum += sizeof(Actor) + actor.name.capacity() + actor.know.bytes() + actor.names.capacity() * sizeof(Named) +
+               actor.queue.size() * sizeof(Item) + (actor.candidates ? sizeof *actor.candidates : 0) +
+               (actor.gift ? sizeof(Gift) : 0);
+    }
+    for (const Sync& sync : syncs) {
+        sum += sizeof(Sync) + sync.name.capacity() + sync.entries.capacity() * sizeof(Entry) +
+               sync.uses.capacity() * sizeof(SyncUse);
+        for (const Entry& entry : sync.entries) {
+            sum += entry.know.bytes() + entry.everything.bytes() + entry.named.capacity() * sizeof(entry.named[0]);
+        }
+    }
+    for (const Resource& resource : resources) {
+        sum += sizeof(Resource) + resource.name.capacity() + resource.reads.capacity() * sizeof(ReadMark) +
+               resource.forgiven.capacity() * sizeof(Forgiven) +
+               resource.imports.capacity() * sizeof(resource.imports[0]);
+    }
+    return sum;
+}
+
+}  // namespace sluice::ledger
