@@ -13,7 +13,7 @@
 #include <string>
 
 #include "gl_test.hpp"
-#include "share/sized.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "sluice/fd.hpp"
 #include "sluice/host_gl/fluid_host.hpp"
 
@@ -114,6 +114,10 @@ TEST_F(BrokenRenderer, ImagesThatWereNeverSharedAreNamed) {
     EXPECT_THAT(createError("no_images"), HasSubstr("HOST_DEPTH of set 0 was never shared"));
 }
 
+TEST_F(BrokenRenderer, AnAnswerShorterThanInAbiOneIsRefused) {
+    EXPECT_THAT(createError("short_info"), HasSubstr("renderer info: struct_size is 12, at least 516 is needed"));
+}
+
 TEST_F(BrokenRenderer, ConfigOutOfRangeIsRefused) {
     const Result<PluginLibrary> library = PluginLibrary::load(plugin("no_images"));
     ASSERT_TRUE(library);
@@ -172,10 +176,9 @@ TEST_F(BogusImport, ImpossibleDescriptionsAreRefusedBeforeTheDriverSeesThem) {
     EXPECT_EQ(services.share_image(services.user, &image, &error), SLUICE_ERROR_INVALID_ARGUMENT);
     image.format = SLUICE_FORMAT_RGBA8;
     image.allocation_size = 1 << 20;
-    image.struct_size = offsetof(SluiceImageExport, fd);
+    image.fd = -1;
     EXPECT_EQ(services.share_image(services.user, &image, &error), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_THAT(error.message, HasSubstr("file descriptor -1"));
-    EXPECT_EQ(services.share_image(services.user, nullptr, &error), SLUICE_ERROR_INVALID_ARGUMENT);
     services.retire_image(services.user, 99, 99);  // must be harmless
     EXPECT_NE(fcntl(0, F_GETFD), -1);
 }

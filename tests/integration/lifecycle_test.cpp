@@ -12,7 +12,7 @@
 #include "echo_rig.hpp"
 #include "gl_test.hpp"
 #include "hostile_state.hpp"
-#include "share/sized.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "sluice/host_gl/state_snapshot.hpp"
 
 namespace sluice::host::test {

@@ -13,18 +13,11 @@
 
 #include "device/device.hpp"
 #include "plugin/api.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "sluice/fd.hpp"
 #include "sluice/plugin.h"
 
 namespace sluice::vk::test {
-
-/// An empty T that says its size.
-template <typename T>
-[[nodiscard]] T sized() {
-    T value{};
-    value.struct_size = sizeof(T);
-    return value;
-}
 
 /// Sets the core's test switches for the devices created while it lives.
 struct Switched {

@@ -19,7 +19,7 @@
 #include "frame/host_services.hpp"
 #include "frame/image_sets.hpp"
 #include "frame/renderer.hpp"
-#include "share/sized.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
 #include "sluice/host_gl/context.hpp"
 #include "timeline/fallback.hpp"

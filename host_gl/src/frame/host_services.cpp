@@ -2,47 +2,22 @@
 #include "frame/host_services.hpp"
 
 #include <algorithm>
-#include <cstddef>
-#include <exception>
 #include <utility>
 
 #include "share/canary_gl.hpp"
-#include "share/sized.hpp"
+#include "sluice/abi_boundary.hpp"
+#include "sluice/abi_sizes.hpp"
 
 namespace sluice::host {
 
 namespace {
 
-constexpr const char* kService = "host service";
-
-/// Runs `body`; no exception crosses the ABI. Out of memory is the only one expected.
-template <typename Body>
-SluiceResult guarded(SluiceError* error, const Body& body) noexcept {
-    try {
-        const Status status = body();
-        return status ? SLUICE_OK : tellError(error, status.error());
-    } catch (const std::exception& caught) {
-        try {
-            return tellError(error, {SLUICE_ERROR_OUT_OF_MEMORY, kService, caught.what(), ""});
-        } catch (...) {
-            return SLUICE_ERROR_OUT_OF_MEMORY;
-        }
-    } catch (...) {
-        return SLUICE_ERROR_INTERNAL;
+/// The renderer must give back the pointer that came with the services.
+Status checkUser(const void* user) {
+    if (user == nullptr) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "user", "it is NULL", "pass SluiceHostServices::user"};
     }
-}
-
-/// An export too short to say its descriptor has none; zero would be somebody's standard input.
-SluiceImageExport readExport(const SluiceImageExport& given) {
-    SluiceImageExport image = readSized(given);
-    if (given.struct_size < offsetof(SluiceImageExport, fd) + sizeof(image.fd)) {
-        image.fd = -1;
-    }
-    return image;
-}
-
-Error missingArgument() {
-    return {SLUICE_ERROR_INVALID_ARGUMENT, kService, "the image is NULL", "the renderer is broken"};
+    return {};
 }
 
 }  // namespace
@@ -82,22 +57,27 @@ void HostServices::traceService(void* user, const SluiceTraceEvent* event) {
     if (user == nullptr || event == nullptr) {
         return;
     }
-    SluiceTraceEvent copy = readSized(*event);
-    if (copy.kind >= SLUICE_TRACE_KIND_COUNT || copy.track >= SLUICE_TRACK_COUNT) {
-        return;
+    auto& self = *static_cast<HostServices*>(user);
+    // The call returns nothing, so the log tells; once, for such a renderer sends every event so.
+    if (event->struct_size < kAbiMinimum<SluiceTraceEvent> && !self.short_event_told_.exchange(true)) {
+        static_cast<void>(guarded(nullptr, [&]() -> Status {
+            self.log(SLUICE_LOG_WARNING, checkAbiStruct(event, "trace event").error().message() +
+                                             "; the renderer's events of this size are dropped");
+            return {};
+        }));
     }
-    if (copy.name == nullptr) {
-        copy.name = "";
-    }
-    static_cast<HostServices*>(user)->trace_->record(copy);
+    self.trace_->record(*event);
 }
 
 SluiceResult HostServices::shareService(void* user, const SluiceImageExport* image, SluiceError* error) {
     return guarded(error, [&]() -> Status {
-        if (user == nullptr || image == nullptr) {
-            return missingArgument();
+        if (Status status = checkUser(user); !status) {
+            return status;
         }
-        Result<ImportedImage> imported = importImage(readExport(*image));
+        if (Status status = checkAbiStruct(image, "image"); !status) {
+            return status;
+        }
+        Result<ImportedImage> imported = importImage(readAbiStruct(*image));
         if (!imported) {
             return imported.error();
         }
@@ -115,10 +95,13 @@ void HostServices::retireService(void* user, std::uint32_t role, std::uint32_t i
 SluiceResult HostServices::canaryService(void* user, const SluiceImageExport* image, std::uint32_t seed,
                                          SluiceError* error) {
     return guarded(error, [&]() -> Status {
-        if (user == nullptr || image == nullptr) {
-            return missingArgument();
+        if (Status status = checkUser(user); !status) {
+            return status;
         }
-        return runCanary(readExport(*image), seed);
+        if (Status status = checkAbiStruct(image, "image"); !status) {
+            return status;
+        }
+        return runCanary(readAbiStruct(*image), seed);
     });
 }
 

@@ -2,6 +2,7 @@
 // What the renderer may call, in the form of the C ABI.
 #pragma once
 
+#include <atomic>
 #include <functional>
 #include <mutex>
 #include <string_view>
@@ -32,6 +33,7 @@ class HostServices {
     ImageTable images_;
     SluiceHostServices table_{};
     std::mutex log_mutex_;
+    std::atomic<bool> short_event_told_ = false;
 
     static void logService(void* user, std::int32_t level, const char* message);
     static void traceService(void* user, const SluiceTraceEvent* event);

@@ -7,7 +7,8 @@
 #include <string_view>
 #include <thread>
 
-#include "share/sized.hpp"
+#include "share/renderer_error.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::host {
@@ -22,6 +23,16 @@ Status statusOf(std::string_view call, SluiceResult result, const SluiceError& s
         return rendererError(call, result, said);
     }
     return {};
+}
+
+/// What the renderer has filled of `answer`, which went out with this host's size; the rest is zero.
+template <typename T>
+Result<T> filled(std::string_view call, const T& answer) {
+    if (Status status = checkAbiStruct(&answer, call); !status) {
+        return Error{SLUICE_ERROR_INTERNAL, fmt::format("renderer {}", call), status.error().detail,
+                     "the plugin is broken"};
+    }
+    return readAbiStruct(answer);
 }
 
 }  // namespace
@@ -55,7 +66,7 @@ Result<SluiceRendererInfo> Renderer::info() const {
     if (const SluiceResult result = api_->info(handle_, &info); result != SLUICE_OK) {
         return rendererError("info", result, sized<SluiceError>());
     }
-    return info;
+    return filled("info", info);
 }
 
 Status Renderer::resize(std::uint32_t width, std::uint32_t height) const {
@@ -88,7 +99,7 @@ Result<SluiceFrameStats> Renderer::stats(std::uint64_t frame, std::uint64_t time
         auto stats = sized<SluiceFrameStats>();
         const SluiceResult result = api_->poll(handle_, frame, &stats);
         if (result == SLUICE_OK) {
-            return stats;
+            return filled("poll", stats);
         }
         if (result != SLUICE_NOT_READY) {
             return rendererError("poll", result, sized<SluiceError>());

@@ -8,7 +8,8 @@
 #include <string>
 
 #include "share/gl_errors.hpp"
-#include "share/sized.hpp"
+#include "share/renderer_error.hpp"
+#include "sluice/abi_sizes.hpp"
 
 namespace sluice::host {
 

@@ -61,6 +61,14 @@ template <>
 inline constexpr std::size_t kAbiMinimum<SluiceRendererApi> = offsetof(SluiceRendererApi, destroy) +
                                                               sizeof(SluiceRendererApi::destroy);
 
+/// An empty T that says its size.
+template <typename T>
+[[nodiscard]] T sized() noexcept {
+    T value{};
+    value.struct_size = sizeof(T);
+    return value;
+}
+
 /// The struct is there and not shorter than in ABI 1.0. INVALID_ARGUMENT otherwise, naming `name` and both sizes.
 template <typename T>
 [[nodiscard]] Status checkAbiStruct(const T* given, std::string_view name) {

@@ -6,9 +6,9 @@
 
 #include "plugin/api.hpp"
 #include "plugin/arguments.hpp"
-#include "plugin/boundary.hpp"
 #include "plugin/prove.hpp"
 #include "plugin/renderer.hpp"
+#include "sluice/abi_boundary.hpp"
 #include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
 

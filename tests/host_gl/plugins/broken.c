@@ -46,7 +46,7 @@ static SluiceResult create(const SluiceHostServices* host, const SluiceCreateInf
     (void)error;
     *renderer = NULL;
     return SLUICE_NOT_READY;
-#elif defined(SLUICE_BREAK_NO_IMAGES)
+#elif defined(SLUICE_BREAK_NO_IMAGES) || defined(SLUICE_BREAK_SHORT_INFO)
     (void)error;
     *renderer = (SluiceRenderer*)(void*)renderer; /* never followed */
     return SLUICE_OK;
@@ -65,6 +65,9 @@ static SluiceResult info(SluiceRenderer* renderer, SluiceRendererInfo* out) {
     out->width = 32;
     out->height = 16;
     out->formats[SLUICE_IMAGE_HOST_DEPTH] = SLUICE_FORMAT_D32F;
+#ifdef SLUICE_BREAK_SHORT_INFO
+    out->struct_size = 12;
+#endif
     return SLUICE_OK;
 }
 

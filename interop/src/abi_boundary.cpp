@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "plugin/boundary.hpp"
+#include "sluice/abi_boundary.hpp"
 
 #include <algorithm>
 #include <cstddef>
@@ -8,9 +8,9 @@
 
 #include "sluice/abi_sizes.hpp"
 
-namespace sluice::vk {
+namespace sluice {
 
-void writeError(SluiceError* to, const Error& error) noexcept {
+void writeAbiError(SluiceError* to, const Error& error) noexcept {
     if (to == nullptr) {
         return;
     }
@@ -37,14 +37,14 @@ void writeError(SluiceError* to, const Error& error) noexcept {
     }
 }
 
-bool usable(SluiceError* error) noexcept {
+bool usableError(SluiceError* error) noexcept {
     try {
         if (error == nullptr) {
             return true;
         }
         const Status status = checkAbiStruct(error, "error");
         if (!status) {
-            writeError(error, status.error());
+            writeAbiError(error, status.error());
         }
         return status.ok();
     } catch (...) {
@@ -52,4 +52,4 @@ bool usable(SluiceError* error) noexcept {
     }
 }
 
-}  // namespace sluice::vk
+}  // namespace sluice

@@ -8,19 +8,19 @@
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
 
-namespace sluice::vk {
+namespace sluice {
 
-/// Fills `to`, cut to what its struct_size holds; NULL is allowed.
-void writeError(SluiceError* to, const Error& error) noexcept;
+/// Fills `to`, cut to what its struct_size holds; NULL is allowed. Says something even where `error` has no text.
+void writeAbiError(SluiceError* to, const Error& error) noexcept;
 
 /// There is no error struct, or one that holds every message whole. If not, what fits has been written to it.
-[[nodiscard]] bool usable(SluiceError* error) noexcept;
+[[nodiscard]] bool usableError(SluiceError* error) noexcept;
 
 /// Runs `body`, which returns a Status; nothing is thrown. An unusable `error` is an invalid argument, and `body` is
 /// not run.
 template <typename Body>
 [[nodiscard]] SluiceResult guarded(SluiceError* error, Body body) noexcept {
-    if (!usable(error)) {
+    if (!usableError(error)) {
         return SLUICE_ERROR_INVALID_ARGUMENT;
     }
     try {
@@ -28,23 +28,23 @@ template <typename Body>
         if (status) {
             return SLUICE_OK;
         }
-        writeError(error, status.error());
+        writeAbiError(error, status.error());
         return status.error().code;
     } catch (const std::bad_alloc&) {
         const Error failure{SLUICE_ERROR_OUT_OF_MEMORY, {}, {}, {}};
-        writeError(error, failure);
+        writeAbiError(error, failure);
         return failure.code;
     } catch (const std::exception& thrown) {
         try {
-            writeError(error, {SLUICE_ERROR_INTERNAL, "exception", thrown.what(), {}});
+            writeAbiError(error, {SLUICE_ERROR_INTERNAL, "exception", thrown.what(), {}});
         } catch (...) {
-            writeError(error, {SLUICE_ERROR_INTERNAL, {}, {}, {}});
+            writeAbiError(error, {SLUICE_ERROR_INTERNAL, {}, {}, {}});
         }
         return SLUICE_ERROR_INTERNAL;
     } catch (...) {
-        writeError(error, {SLUICE_ERROR_INTERNAL, {}, {}, {}});
+        writeAbiError(error, {SLUICE_ERROR_INTERNAL, {}, {}, {}});
         return SLUICE_ERROR_INTERNAL;
     }
 }
 
-}  // namespace sluice::vk
+}  // namespace sluice
