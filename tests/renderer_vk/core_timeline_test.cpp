@@ -10,6 +10,7 @@
 
 #include "device/device.hpp"
 #include "device/structs.hpp"
+#include "sync/binary_pool.hpp"
 #include "sync/renderer_timeline.hpp"
 
 namespace sluice::vk {
@@ -63,6 +64,26 @@ class Timeline : public ::testing::Test {
     SluiceHostServices services{};  ///< logs, so that a message that fails the test can be read
     std::unique_ptr<Device> device;
 };
+
+/// A driver that reports success and no descriptor.
+VkResult VKAPI_PTR noDescriptor(VkDevice, const VkSemaphoreGetFdInfoKHR*, int* fd) {
+    *fd = -1;
+    return VK_SUCCESS;
+}
+VkResult VKAPI_PTR tooMany(VkDevice, const VkSemaphoreGetFdInfoKHR*, int*) {
+    return VK_ERROR_TOO_MANY_OBJECTS;
+}
+
+TEST_F(Timeline, AnOpaqueDescriptorBelowZeroIsAFailureWhateverTheDriverReports) {
+    for (const PFN_vkGetSemaphoreFdKHR driver : {&noDescriptor, &tooMany}) {
+        device->fn.vkGetSemaphoreFdKHR = driver;
+        const Result<UniqueFd> fd = exportSemaphore(*device, VK_NULL_HANDLE);
+        ASSERT_FALSE(fd);
+        EXPECT_EQ(fd.error().code, SLUICE_ERROR_OUT_OF_MEMORY);
+        EXPECT_NE(fd.error().message().find("vkGetSemaphoreFdKHR: the driver gave descriptor -1"), std::string::npos)
+            << fd.error().message();
+    }
+}
 
 constexpr std::uint64_t kLong = 20'000'000'000;
 constexpr std::uint64_t kShort = 20'000'000;

@@ -2,12 +2,12 @@
 #include "memory/image.hpp"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <string>
 #include <utility>
 
 #include "device/capabilities.hpp"
+#include "device/exported_fd.hpp"
 #include "device/structs.hpp"
 
 namespace sluice::vk {
@@ -160,19 +160,7 @@ Result<UniqueFd> Image::exportFd() const {
     info.handleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
     int fd = -1;
     const VkResult result = device_->fn.vkGetMemoryFdKHR(device_->handle, &info, &fd);
-    if (result != VK_SUCCESS && result != VK_ERROR_TOO_MANY_OBJECTS) {
-        return vulkanError(result, fmt::format("vkGetMemoryFdKHR of a {}x{} image", width_, height_));
-    }
-    if (fd < 0) {
-        // TOO_MANY_OBJECTS by the specification; Mesa returns success and -1 when dup fails.
-        rlimit limit{};
-        const bool known = ::getrlimit(RLIMIT_NOFILE, &limit) == 0;
-        return Error{SLUICE_ERROR_OUT_OF_MEMORY, fmt::format("vkGetMemoryFdKHR of a {}x{} image", width_, height_),
-                     fmt::format("the driver gave descriptor {}; this process may have {} open", fd,
-                                 known ? std::to_string(limit.rlim_cur) : "an unknown number of them"),
-                     "raise the limit of open files with `ulimit -n`, or use fewer image sets"};
-    }
-    return UniqueFd(fd);
+    return exportedFd(result, fd, fmt::format("vkGetMemoryFdKHR of a {}x{} image", width_, height_));
 }
 
 }  // namespace sluice::vk

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sync/binary_pool.hpp"
 
+#include "device/exported_fd.hpp"
 #include "device/structs.hpp"
 
 namespace sluice::vk {
@@ -27,10 +28,8 @@ Result<UniqueFd> exportSemaphore(const Device& device, VkSemaphore semaphore) {
     info.semaphore = semaphore;
     info.handleType = VK_EXTERNAL_SEMAPHORE_HANDLE_TYPE_OPAQUE_FD_BIT;
     int fd = -1;
-    if (const VkResult result = device.fn.vkGetSemaphoreFdKHR(device.handle, &info, &fd); result != VK_SUCCESS) {
-        return vulkanError(result, "vkGetSemaphoreFdKHR");
-    }
-    return UniqueFd(fd);
+    const VkResult result = device.fn.vkGetSemaphoreFdKHR(device.handle, &info, &fd);
+    return exportedFd(result, fd, "vkGetSemaphoreFdKHR");
 }
 
 BinaryPool::~BinaryPool() {
