@@ -6,11 +6,12 @@
 
 #include <bit>
 #include <cstdint>
-#include <initializer_list>
 #include <optional>
 
+#include "engine/check_scene.hpp"
 #include "engine/colour.hpp"
 #include "engine/display_list.hpp"
+#include "engine/frame_state.hpp"
 #include "engine/paint.hpp"
 #include "engine/scenery.hpp"
 #include "engine/sky_dome.hpp"
@@ -20,108 +21,13 @@
 namespace sluice::host {
 namespace {
 
-/// The sun's share of a surface that faces it, in the encoded values that this engine adds up. With the default ambient
-/// a white surface just reaches 1; more would bleach the paving.
-constexpr float kSunStrength = 0.78F;
-/// Light from the open sky, from straight above: keeps shaded walls from looking flat.
-constexpr float kSkyStrength = 0.16F;
-/// Sunlight that the paving throws back, from below and from the side that the sun does not reach.
-constexpr float kBounceStrength = 0.22F;
 constexpr float kContactAlpha = 0.55F;
 /// Below this sine of the sun's elevation shadows would be longer than the courtyard.
 constexpr float kLowestSun = 0.05F;
 
-using Vec4 = std::array<float, 4>;
-
 /// Compared as bits, so that a NaN does not rebuild the dome in every frame.
 auto bitsOf(const SluiceSky& sky) {
     return std::bit_cast<std::array<std::uint32_t, sizeof(SluiceSky) / sizeof(std::uint32_t)>>(sky);
-}
-
-Vec4 opaque(const Vec3& c) {
-    return {c[0], c[1], c[2], 1.0F};
-}
-
-/// Hue of the sun in encoded values; a radiance above 1 is as bright as this engine can show.
-Vec3 sunColour(const SluiceSky& sky) {
-    const float peak = std::max({1.0F, sky.sun_radiance[0], sky.sun_radiance[1], sky.sun_radiance[2]});
-    return encodeSrgb({sky.sun_radiance[0] / peak, sky.sun_radiance[1] / peak, sky.sun_radiance[2] / peak});
-}
-
-Vec3 horizonColour(const SluiceSky& sky) {
-    return encodeSrgb({sky.horizon[0], sky.horizon[1], sky.horizon[2]});
-}
-
-void setLights(const SluiceSky& sky, const EngineScene& scene) {
-    const Vec4 none{0.0F, 0.0F, 0.0F, 1.0F};
-    const Vec4 ambient = opaque(scene.ambient);
-    const Vec4 sun = opaque(sunColour(sky) * kSunStrength);
-    const Vec4 to_sun{sky.to_sun[0], sky.to_sun[1], sky.to_sun[2], 0.0F};
-    const Vec4 overhead{0.0F, 1.0F, 0.0F, 0.0F};
-    const Vec4 bounce = opaque(sunColour(sky) * kBounceStrength);
-    const Vec4 dome = opaque(encodeSrgb({sky.zenith[0], sky.zenith[1], sky.zenith[2]}) * kSkyStrength);
-    glLightModelfv(GL_LIGHT_MODEL_AMBIENT, ambient.data());
-    glLightModeli(GL_LIGHT_MODEL_TWO_SIDE, GL_FALSE);
-    glLightModeli(GL_LIGHT_MODEL_LOCAL_VIEWER, GL_FALSE);
-    glLightModeli(GL_LIGHT_MODEL_COLOR_CONTROL, GL_SINGLE_COLOR);
-    for (GLenum light = GL_LIGHT3; light <= GL_LIGHT7; ++light) {
-        glDisable(light);
-    }
-    const auto set = [&](GLenum light, const Vec4& diffuse, const Vec4& direction) {
-        glLightfv(light, GL_AMBIENT, none.data());
-        glLightfv(light, GL_DIFFUSE, diffuse.data());
-        glLightfv(light, GL_SPECULAR, none.data());
-        glLightfv(light, GL_POSITION, direction.data());
-        glLightf(light, GL_SPOT_CUTOFF, 180.0F);
-        glEnable(light);
-    };
-    set(GL_LIGHT0, sun, to_sun);
-    set(GL_LIGHT1, dome, overhead);
-    set(GL_LIGHT2, bounce, {-sky.to_sun[0], -0.4F, -sky.to_sun[2], 0.0F});
-    glMaterialfv(GL_FRONT_AND_BACK, GL_SPECULAR, none.data());
-    glMaterialfv(GL_FRONT_AND_BACK, GL_EMISSION, none.data());
-    glColorMaterial(GL_FRONT_AND_BACK, GL_AMBIENT_AND_DIFFUSE);
-    glEnable(GL_COLOR_MATERIAL);
-    glEnable(GL_LIGHTING);
-    glEnable(GL_NORMALIZE);  // crates are scaled
-}
-
-void setFog(const SluiceSky& sky, float density) {
-    const Vec4 colour = opaque(horizonColour(sky));
-    glFogi(GL_FOG_MODE, GL_EXP2);
-    glFogf(GL_FOG_DENSITY, density);
-    glFogfv(GL_FOG_COLOR, colour.data());
-    glHint(GL_FOG_HINT, GL_NICEST);
-    if (density > 0.0F) {
-        glEnable(GL_FOG);
-    }
-}
-
-/// Everything that the frame relies on, whatever state the caller was in.
-void setDefaults() {
-    for (const GLenum off : std::initializer_list<GLenum>{
-             GL_SCISSOR_TEST, GL_BLEND, GL_ALPHA_TEST, GL_STENCIL_TEST, GL_COLOR_LOGIC_OP, GL_FOG, GL_LIGHTING,
-             GL_DITHER, GL_POLYGON_OFFSET_FILL, GL_POLYGON_STIPPLE, GL_POLYGON_SMOOTH, GL_COLOR_SUM, GL_CLIP_PLANE0,
-             GL_CLIP_PLANE1, GL_CLIP_PLANE2, GL_CLIP_PLANE3, GL_CLIP_PLANE4, GL_CLIP_PLANE5}) {
-        glDisable(off);
-    }
-    glActiveTexture(GL_TEXTURE0);
-    glMatrixMode(GL_TEXTURE);
-    glLoadIdentity();
-    for (const GLenum off :
-         std::initializer_list<GLenum>{GL_TEXTURE_GEN_S, GL_TEXTURE_GEN_T, GL_TEXTURE_GEN_R, GL_TEXTURE_GEN_Q,
-                                       GL_TEXTURE_1D, GL_TEXTURE_3D, GL_TEXTURE_CUBE_MAP}) {
-        glDisable(off);
-    }
-    glTexEnvi(GL_TEXTURE_ENV, GL_TEXTURE_ENV_MODE, GL_MODULATE);
-    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glStencilMask(~0U);
-    glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
-    glFrontFace(GL_CCW);
-    glCullFace(GL_BACK);
-    glShadeModel(GL_SMOOTH);
-    glDepthFunc(GL_LEQUAL);
-    glDepthRange(0.0, 1.0);
 }
 
 /// Projects along the sun onto the plane y = height: p - to_sun (p.y - height) / to_sun.y, column-major.
@@ -129,62 +35,6 @@ std::array<float, 16> shadowMatrix(const SluiceSky& sky, float height) {
     const float a = sky.to_sun[0] / sky.to_sun[1];
     const float b = sky.to_sun[2] / sky.to_sun[1];
     return {1.0F, 0.0F, 0.0F, 0.0F, -a, 0.0F, -b, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F, a * height, height, b * height, 1.0F};
-}
-
-/// One level of every matrix stack that the frame writes, and of the attribute stack.
-class FrameScope {
-  public:
-    FrameScope() {
-        glPushAttrib(GL_ALL_ATTRIB_BITS);
-        glActiveTexture(GL_TEXTURE0);
-        for (const GLenum mode : std::initializer_list<GLenum>{GL_TEXTURE, GL_PROJECTION, GL_MODELVIEW}) {
-            glMatrixMode(mode);
-            glPushMatrix();
-        }
-    }
-    FrameScope(const FrameScope&) = delete;
-    FrameScope& operator=(const FrameScope&) = delete;
-    ~FrameScope() {
-        glActiveTexture(GL_TEXTURE0);
-        for (const GLenum mode : std::initializer_list<GLenum>{GL_TEXTURE, GL_PROJECTION, GL_MODELVIEW}) {
-            glMatrixMode(mode);
-            glPopMatrix();
-        }
-        glPopAttrib();
-    }
-};
-
-Status checkScene(const EngineScene& scene) {
-    const auto bad = [](std::string thing, std::string detail) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, std::move(thing), std::move(detail), "correct the scene"};
-    };
-    if (!(scene.floor_half_extent > 0.0F) || !std::isfinite(scene.floor_half_extent)) {
-        return bad("floor half extent", fmt::format("{} m, must be positive", scene.floor_half_extent));
-    }
-    if (!(scene.fog_density >= 0.0F)) {
-        return bad("fog density", fmt::format("{} per metre, must not be negative", scene.fog_density));
-    }
-    for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
-        const Pillar& p = scene.pillars[i];
-        if (!(p.radius > 0.0F) || !(p.height > 0.0F)) {
-            return bad(fmt::format("pillar {}", i),
-                       fmt::format("radius {} m and height {} m must be positive", p.radius, p.height));
-        }
-    }
-    for (std::size_t i = 0; i < scene.crates.size(); ++i) {
-        if (!(scene.crates[i].size > 0.0F)) {
-            return bad(fmt::format("crate {}", i), fmt::format("size {} m, must be positive", scene.crates[i].size));
-        }
-    }
-    for (std::size_t i = 0; i < scene.basins.size(); ++i) {
-        const Basin& b = scene.basins[i];
-        if (!(b.half_x > 0.0F) || !(b.half_z > 0.0F) || !(b.height > 0.0F) || !(b.wall > 0.0F)) {
-            return bad(fmt::format("basin {}", i),
-                       fmt::format("half extents {} and {} m, height {} m and wall {} m must be positive", b.half_x,
-                                   b.half_z, b.height, b.wall));
-        }
-    }
-    return {};
 }
 
 }  // namespace

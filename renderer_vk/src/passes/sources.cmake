@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT
 # Included by renderer_vk/CMakeLists.txt: the pass plan and the passes.
 list(APPEND SLUICE_VK_SOURCES
+    src/plan/check_ranges.cpp
     src/plan/plan.cpp
     src/plan/explain.cpp
     src/passes/arena.cpp

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "engine/check_scene.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+namespace sluice::host {
+
+Status checkScene(const EngineScene& scene) {
+    const auto bad = [](std::string thing, std::string detail) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, std::move(thing), std::move(detail), "correct the scene"};
+    };
+    if (!(scene.floor_half_extent > 0.0F) || !std::isfinite(scene.floor_half_extent)) {
+        return bad("floor half extent", fmt::format("{} m, must be positive", scene.floor_half_extent));
+    }
+    if (!(scene.fog_density >= 0.0F)) {
+        return bad("fog density", fmt::format("{} per metre, must not be negative", scene.fog_density));
+    }
+    for (std::size_t i = 0; i < scene.pillars.size(); ++i) {
+        const Pillar& p = scene.pillars[i];
+        if (!(p.radius > 0.0F) || !(p.height > 0.0F)) {
+            return bad(fmt::format("pillar {}", i),
+                       fmt::format("radius {} m and height {} m must be positive", p.radius, p.height));
+        }
+    }
+    for (std::size_t i = 0; i < scene.crates.size(); ++i) {
+        if (!(scene.crates[i].size > 0.0F)) {
+            return bad(fmt::format("crate {}", i), fmt::format("size {} m, must be positive", scene.crates[i].size));
+        }
+    }
+    for (std::size_t i = 0; i < scene.basins.size(); ++i) {
+        const Basin& b = scene.basins[i];
+        if (!(b.half_x > 0.0F) || !(b.half_z > 0.0F) || !(b.height > 0.0F) || !(b.wall > 0.0F)) {
+            return bad(fmt::format("basin {}", i),
+                       fmt::format("half extents {} and {} m, height {} m and wall {} m must be positive", b.half_x,
+                                   b.half_z, b.height, b.wall));
+        }
+    }
+    return {};
+}
+
+}  // namespace sluice::host

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "frame/connection.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "frame/check_info.hpp"
+#include "sluice/abi_sizes.hpp"
+#include "sluice/format.hpp"
+#include "sluice/host_gl/context.hpp"
+#include "timeline/fallback.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+SluiceCreateInfo createInfo(const FluidHostConfig& config, SluiceTimelineKind timeline) {
+    SluiceCreateInfo info = sized<SluiceCreateInfo>();
+    info.width = config.width;
+    info.height = config.height;
+    info.image_sets = config.image_sets;
+    info.timeline = timeline;
+    info.validation = config.validation ? 1 : 0;
+    info.outputs = config.outputs;
+    info.host_depth_format = config.host_depth;
+    info.host = queryCapabilities();
+    return info;
+}
+
+}  // namespace
+
+Status Connection::attempt(const PluginLibrary& library, SluiceTimelineKind kind, Stage& stage) {
+    stage = Stage::Renderer;
+    Result<Renderer> created = Renderer::create(library.api(), services.table(), createInfo(config, kind));
+    if (!created) {
+        return created.error();
+    }
+    renderer = std::move(created).value();
+    if (Status status = adoptImages(); !status) {
+        return status;
+    }
+    sets.emplace(info.image_sets, services.images(), config.trace);
+    stage = Stage::Timeline;
+    TimelineDeps deps;
+    deps.api = &renderer.api();
+    deps.renderer = renderer.handle();
+    deps.trace = config.trace;
+    deps.log = [this](SluiceLogLevel level, std::string_view text) { services.log(level, text); };
+    Result<std::unique_ptr<HostTimeline>> made = makeHostTimeline(static_cast<SluiceTimelineKind>(info.timeline), deps);
+    if (!made) {
+        return made.error();
+    }
+    timeline = std::move(made).value();
+    stage = Stage::Done;
+    return {};
+}
+
+Status Connection::open(const PluginLibrary& library) {
+    Stage stage{};
+    Status status = attempt(library, config.timeline, stage);
+    if (stage == Stage::Timeline && config.timeline == SLUICE_TIMELINE_AUTO) {
+        // Extensions that are advertised may still fail between two drivers. Only the next kind's renderer has the
+        // semaphores that the next kind needs, so the renderer starts anew as well.
+        auto failed = static_cast<SluiceTimelineKind>(info.timeline);
+        for (const SluiceTimelineKind next : timelinesAfter(failed)) {
+            services.log(SLUICE_LOG_WARNING, fmt::format("timeline {} failed at start-up, {} is next: {}",
+                                                         toString(failed), toString(next), status.error().message()));
+            close();
+            failed = next;
+            status = attempt(library, next, stage);
+            if (status) {
+                break;
+            }
+        }
+    }
+    if (!status) {
+        return status;
+    }
+    services.log(SLUICE_LOG_INFO,
+                 fmt::format("renderer {} {}: {} image sets of {}x{}, timeline {}", renderer.api().name,
+                             renderer.api().version != nullptr ? renderer.api().version : "", info.image_sets,
+                             info.width, info.height, toString(timeline->kind())));
+    return {};
+}
+
+void Connection::close() {
+    // The bridge may still owe values that the renderer's queue waits for, so it drains before the renderer goes.
+    timeline.reset();
+    renderer = Renderer{};
+    services.images().clear();
+}
+
+Status Connection::adoptImages() {
+    Result<SluiceRendererInfo> answer = renderer.info();
+    if (!answer) {
+        return answer.error();
+    }
+    info = answer.value();
+    if (Status status = checkInfo(info, config, services.images()); !status) {
+        return status;
+    }
+    linear.reset();
+    if (info.host_depth_encoding == SLUICE_DEPTH_LINEAR) {
+        Result<LinearDepthPass> pass = LinearDepthPass::create(info.width, info.height);
+        if (!pass) {
+            return pass.error();
+        }
+        linear.emplace(std::move(pass).value());
+    }
+    return {};
+}
+
+Status Connection::resize(std::uint32_t width, std::uint32_t height) {
+    Status status = renderer.resize(width, height);
+    if (status) {
+        config.width = width;
+        config.height = height;
+        status = adoptImages();
+    }
+    sets->reset();
+    if (!status) {
+        services.images().clear();
+    }
+    return status;
+}
+
+}  // namespace sluice::host
