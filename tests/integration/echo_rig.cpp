@@ -167,4 +167,14 @@ void EchoTest::makeScreen(std::uint32_t width, std::uint32_t height) {
     screen_.emplace(std::move(screen).value());
 }
 
+void EchoTest::frameIsClean() {
+    const std::uint64_t frame = host_->frame() + 1;
+    drawStamp(*screen_, frame, 4);
+    const Status submitted = host_->submit(*screen_, echoInput());
+    ASSERT_TRUE(submitted) << submitted.error().message();
+    const Status composited = host_->composite(*screen_);
+    ASSERT_TRUE(composited) << composited.error().message();
+    EXPECT_TRUE(inspect(*host_, frame).clean());
+}
+
 }  // namespace sluice::host::test

@@ -56,6 +56,8 @@ class EchoTest : public ::testing::Test {
     void makeHost(const FluidHostConfig& config);
     [[nodiscard]] FluidHostConfig config() const;
     void makeScreen(std::uint32_t width, std::uint32_t height);
+    /// One frame of the host on the screen, checked texel by texel.
+    void frameIsClean();
 
     std::optional<GlContext> context_;
     std::optional<PluginLibrary> library_;

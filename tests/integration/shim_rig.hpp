@@ -10,8 +10,6 @@ namespace sluice::host::test {
 class ShimTest : public EchoTest {
   protected:
     void SetUp() override;
-    /// One frame, checked texel by texel.
-    void frameIsClean();
 
     ShimControl* control_ = nullptr;  ///< lives in the library, reset for each test
 };

@@ -30,12 +30,7 @@ class BinaryTimeline final : public HostTimeline {
         if (!semaphore) {
             return semaphore.error();
         }
-        if (Status status = semaphore.value().signal(textures); !status) {
-            return status;
-        }
-        traceStep(deps_.trace, SLUICE_TRACE_SIGNAL, SLUICE_TRACK_HOST_CPU, SLUICE_HOST_TO_RENDERER, value, begin,
-                  "signal renderer");
-        return {};
+        return signalRenderer(semaphore.value(), value, begin, textures, deps_.trace);
     }
 
     [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t /*timeout_ns*/,
@@ -49,13 +44,9 @@ class BinaryTimeline final : public HostTimeline {
         if (!semaphore) {
             return semaphore.error();
         }
-        if (Status status = semaphore.value().wait(textures); !status) {
-            return status;
-        }
-        waited_ = value;
-        traceStep(deps_.trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
-                  "wait for renderer");
-        return {};
+        Status status = waitForRenderer(semaphore.value(), value, begin, textures, deps_.trace);
+        waited_ = status ? value : waited_;
+        return status;
     }
 
     /// Imports the semaphores of the first frame and lets go of them: whether the two drivers understand each other.

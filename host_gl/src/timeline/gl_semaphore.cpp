@@ -10,6 +10,7 @@
 #include "share/gl_errors.hpp"
 #include "share/renderer_error.hpp"
 #include "sluice/abi_sizes.hpp"
+#include "timeline/timeline_events.hpp"
 
 namespace sluice::host {
 
@@ -95,6 +96,26 @@ Status GlSemaphore::wait(std::span<const std::uint32_t> textures) const {
     const std::vector<GLenum> layouts = generalLayouts(textures.size());
     glWaitSemaphoreEXT(semaphore_, 0, nullptr, static_cast<GLuint>(textures.size()), textures.data(), layouts.data());
     return refusalOf("glWaitSemaphoreEXT");
+}
+
+Status signalRenderer(const GlSemaphore& semaphore, std::uint64_t value, std::uint64_t begin,
+                      std::span<const std::uint32_t> textures, Trace* trace) {
+    Status status = semaphore.signal(textures);
+    if (status) {
+        traceStep(trace, SLUICE_TRACE_SIGNAL, SLUICE_TRACK_HOST_CPU, SLUICE_HOST_TO_RENDERER, value, begin,
+                  "signal renderer");
+    }
+    return status;
+}
+
+Status waitForRenderer(const GlSemaphore& semaphore, std::uint64_t value, std::uint64_t begin,
+                       std::span<const std::uint32_t> textures, Trace* trace) {
+    Status status = semaphore.wait(textures);
+    if (status) {
+        traceStep(trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
+                  "wait for renderer");
+    }
+    return status;
 }
 
 Result<UniqueFd> exportTimeline(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value) {

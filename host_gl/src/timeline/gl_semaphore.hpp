@@ -51,6 +51,13 @@ class GlSemaphore {
     std::uint32_t semaphore_ = 0;
 };
 
+/// Signals value `value` to the renderer and records the step, which began at `begin`.
+[[nodiscard]] Status signalRenderer(const GlSemaphore& semaphore, std::uint64_t value, std::uint64_t begin,
+                                    std::span<const std::uint32_t> textures, Trace* trace);
+/// The same for a wait for the renderer's value.
+[[nodiscard]] Status waitForRenderer(const GlSemaphore& semaphore, std::uint64_t value, std::uint64_t begin,
+                                     std::span<const std::uint32_t> textures, Trace* trace);
+
 /// Asks the renderer for the descriptor of (direction, value).
 [[nodiscard]] Result<UniqueFd> exportTimeline(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value);
 

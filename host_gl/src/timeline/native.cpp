@@ -25,12 +25,7 @@ class NativeTimeline final : public HostTimeline {
         if (Status status = to_renderer_.setValue(value); !status) {
             return status;
         }
-        if (Status status = to_renderer_.signal(textures); !status) {
-            return status;
-        }
-        traceStep(deps_.trace, SLUICE_TRACE_SIGNAL, SLUICE_TRACK_HOST_CPU, SLUICE_HOST_TO_RENDERER, value, begin,
-                  "signal renderer");
-        return {};
+        return signalRenderer(to_renderer_, value, begin, textures, deps_.trace);
     }
 
     [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t /*timeout_ns*/,
@@ -39,12 +34,7 @@ class NativeTimeline final : public HostTimeline {
         if (Status status = to_host_.setValue(value); !status) {
             return status;
         }
-        if (Status status = to_host_.wait(textures); !status) {
-            return status;
-        }
-        traceStep(deps_.trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
-                  "wait for renderer");
-        return {};
+        return waitForRenderer(to_host_, value, begin, textures, deps_.trace);
     }
 
   private:

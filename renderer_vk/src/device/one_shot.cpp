@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "device/commands.hpp"
 #include "device/structs.hpp"
 #include "memory/buffer.hpp"
 
@@ -43,25 +44,14 @@ void count(const Device& device, const Image& image, std::size_t bytes) {
 
 Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>& record) {
     Transient mine(device);
-    auto pool_info = vkStruct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
-    pool_info.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-    pool_info.queueFamilyIndex = device.queue_family;
-    VkResult result = device.fn.vkCreateCommandPool(device.handle, &pool_info, nullptr, &mine.pool);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "vkCreateCommandPool");
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    if (Status status = createCommands(device, mine.pool, commands); !status) {
+        return status;
     }
     auto fence_info = vkStruct<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    result = device.fn.vkCreateFence(device.handle, &fence_info, nullptr, &mine.fence);
+    VkResult result = device.fn.vkCreateFence(device.handle, &fence_info, nullptr, &mine.fence);
     if (result != VK_SUCCESS) {
         return vulkanError(result, "vkCreateFence");
-    }
-    auto allocate = vkStruct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-    allocate.commandPool = mine.pool;
-    allocate.commandBufferCount = 1;
-    VkCommandBuffer commands = VK_NULL_HANDLE;
-    result = device.fn.vkAllocateCommandBuffers(device.handle, &allocate, &commands);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "vkAllocateCommandBuffers");
     }
     auto begin = vkStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -150,15 +140,8 @@ Result<std::vector<std::byte>> downloadImage(const Device& device, const Image& 
         device.fn.vkCmdCopyImageToBuffer(commands, image.image(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, buffer, 1,
                                          &region);
         fullBarrier(device, commands, image.image(), image.aspect(), VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, layout);
-        auto visible = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-        visible.srcStageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT;
-        visible.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        visible.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-        visible.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-        auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &visible;
-        device.fn.vkCmdPipelineBarrier2(commands, &dependency);
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
     if (!status) {
         return status.error();

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "device/commands.hpp"
 #include "device/structs.hpp"
 #include "sluice/trace.hpp"
 
@@ -54,19 +55,8 @@ FrameRing::~FrameRing() {
 }
 
 Status FrameRing::createSlot(Slot& slot) const {
-    auto pool = vkStruct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
-    pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
-    pool.queueFamilyIndex = device_.queue_family;
-    VkResult result = device_.fn.vkCreateCommandPool(device_.handle, &pool, nullptr, &slot.pool);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "vkCreateCommandPool");
-    }
-    auto info = vkStruct<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-    info.commandPool = slot.pool;
-    info.commandBufferCount = 1;
-    result = device_.fn.vkAllocateCommandBuffers(device_.handle, &info, &slot.commands);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "vkAllocateCommandBuffers");
+    if (Status status = createCommands(device_, slot.pool, slot.commands); !status) {
+        return status;
     }
     return slot.timer.create();
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "frame/frame_timer.hpp"
 
+#include "device/commands.hpp"
 #include "device/structs.hpp"
 #include "sluice/trace.hpp"
 
@@ -48,13 +49,7 @@ void FrameTimer::stamp(VkCommandBuffer commands, std::uint32_t query) const {
 /// ms). On other drivers it would only keep passes from overlapping, and hide from the validation layer that one of
 /// them lacks a barrier of its own.
 void FrameTimer::flush(VkCommandBuffer commands) const {
-    auto memory = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    memory.srcStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    memory.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &memory;
-    device_.fn.vkCmdPipelineBarrier2(commands, &dependency);
+    memoryBarrier(device_, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0);
 }
 
 void FrameTimer::frameBegin(VkCommandBuffer commands) {

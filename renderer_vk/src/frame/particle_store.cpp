@@ -6,7 +6,7 @@
 #include <cstring>
 #include <utility>
 
-#include "device/structs.hpp"
+#include "device/commands.hpp"
 
 namespace sluice::vk {
 namespace {
@@ -82,15 +82,9 @@ void recordUpload(const Device& device, VkCommandBuffer commands, const Particle
     }
     const VkBufferCopy region{0, 0, set.position.size()};
     device.fn.vkCmdCopyBuffer(commands, set.staging.buffer(), set.position.buffer(), 1, &region);
-    auto visible = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    visible.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-    visible.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-    visible.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    visible.dstAccessMask = VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT;
-    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &visible;
-    device.fn.vkCmdPipelineBarrier2(commands, &dependency);
+    memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
+                  VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT);
 }
 
 }  // namespace sluice::vk

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "device/commands.hpp"
 #include "device/structs.hpp"
 
 namespace sluice::vk {
@@ -68,15 +69,7 @@ void closeAttachment(const PassContext& context, PlanImage id) {
 
 void order(const PassContext& context, VkPipelineStageFlags2 from, VkAccessFlags2 written, VkPipelineStageFlags2 to,
            VkAccessFlags2 used) {
-    auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-    barrier.srcStageMask = from;
-    barrier.srcAccessMask = written;
-    barrier.dstStageMask = to;
-    barrier.dstAccessMask = used;
-    auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-    dependency.memoryBarrierCount = 1;
-    dependency.pMemoryBarriers = &barrier;
-    context.device.fn.vkCmdPipelineBarrier2(context.commands, &dependency);
+    memoryBarrier(context.device, context.commands, from, written, to, used);
 }
 
 void betweenDispatches(const PassContext& context) {
