@@ -8,6 +8,7 @@
 #include "app/log.hpp"
 #include "app/plugin_path.hpp"
 #include "report/probe_report.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "sluice/canary.hpp"
 #include "sluice/format.hpp"
 #include "sluice/host_gl/context.hpp"
@@ -24,8 +25,7 @@ bool has(std::uint32_t formats, SluiceFormat format) {
 }
 
 SluiceCreateInfo createInfo(const ProbeResult& result, const ProbeOptions& options) {
-    SluiceCreateInfo info{};
-    info.struct_size = sizeof(info);
+    SluiceCreateInfo info = sized<SluiceCreateInfo>();
     info.width = kSizes[1].width;
     info.height = kSizes[1].height;
     info.image_sets = 1;
@@ -47,8 +47,7 @@ FormatProbe probeFormat(const FormatInfo& format, const ProbeResult& result, con
         return probe;
     }
     for (const scene::Size size : kSizes) {
-        SluiceError error{};
-        error.struct_size = sizeof(error);
+        SluiceError error = sized<SluiceError>();
         const SluiceResult code = api.probe_format(&services, &info, static_cast<std::uint32_t>(format.format),
                                                    size.width, size.height, &error);
         probe.canaries.push_back({size.width, size.height, code == SLUICE_OK, code == SLUICE_OK ? "" : error.message});
@@ -99,10 +98,8 @@ void probeRenderer(ProbeResult& result, const ProbeOptions& options) {
     result.plugin = library.value().path().string();
     const host::ProbeServices services([](SluiceLogLevel level, std::string_view message) { log(level, message); });
     const SluiceCreateInfo info = createInfo(result, options);
-    SluiceRendererCapabilities vk{};
-    vk.struct_size = sizeof(vk);
-    SluiceError error{};
-    error.struct_size = sizeof(error);
+    SluiceRendererCapabilities vk = sized<SluiceRendererCapabilities>();
+    SluiceError error = sized<SluiceError>();
     if (api.describe(&services.services(), &info, &vk, &error) != SLUICE_OK) {
         result.problems.emplace_back(error.message);
         return;
@@ -127,21 +124,14 @@ int probe(const ProbeOptions& options) {
         result.problems.push_back(current.error().message());
     } else {
         result.gl = host::queryCapabilities();
+        result.gl_device_note = host::glDeviceNote();
         probeRenderer(result, options);
     }
-    const std::vector<std::string> devices = host::eglDevices();
+    result.egl_devices = host::eglDevices();
     if (options.json) {
-        nlohmann::ordered_json document = probeJson(result);
-        document["egl_devices"] = devices;
-        fmt::print("{}\n", document.dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
+        fmt::print("{}\n", probeJson(result).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else {
-        fmt::print("{}\nEGL devices\n", probeText(result));
-        for (const std::string& device : devices) {
-            fmt::print("  {}\n", device);
-        }
-        if (devices.empty()) {
-            fmt::print("  none: EGL cannot list them here\n");
-        }
+        fmt::print("{}", probeText(result));
     }
     return result.possible() ? kExitOk : kExitNoFluid;
 }

@@ -82,6 +82,9 @@ Result<RenderSession> createSession(const RenderInputs& inputs) {
     if (Status current = context.value().makeCurrent(); !current) {
         return current.error();
     }
+    if (const std::string note = host::glDeviceNote(); !note.empty()) {
+        log(SLUICE_LOG_WARNING, note);
+    }
     Result<host::Screen> screen = host::Screen::create(inputs.size.width, inputs.size.height);
     if (!screen) {
         return screen.error();

@@ -198,7 +198,17 @@ std::string probeText(const ProbeResult& probe) {
     for (const std::string& problem : probe.problems) {
         text += fmt::format("problem   {}\n", problem);
     }
+    if (!probe.gl_device_note.empty()) {
+        text += fmt::format("note      {}\n", probe.gl_device_note);
+    }
     text += probe.possible() ? "GL and Vulkan can share images here.\n" : "GL and Vulkan cannot share images here.\n";
+    text += "\nEGL devices\n";
+    for (const std::string& device : probe.egl_devices) {
+        text += fmt::format("  {}\n", device);
+    }
+    if (probe.egl_devices.empty()) {
+        text += "  none: EGL cannot list them here\n";
+    }
     return text;
 }
 
@@ -224,7 +234,9 @@ nlohmann::ordered_json probeJson(const ProbeResult& probe) {
             {"formats", formats},
             {"timelines", timelines},
             {"agreement", probe.agreement ? agreementJson(*probe.agreement) : Json(nullptr)},
-            {"problems", probe.problems}};
+            {"problems", probe.problems},
+            {"gl_device_note", probe.gl_device_note.empty() ? Json(nullptr) : Json(probe.gl_device_note)},
+            {"egl_devices", probe.egl_devices}};
 }
 
 }  // namespace sluice::cli

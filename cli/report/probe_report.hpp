@@ -41,6 +41,8 @@ struct ProbeResult {
     std::vector<TimelineProbe> timelines;
     std::optional<Agreement> agreement;
     std::vector<std::string> problems;
+    std::string gl_device_note;  ///< why OpenGL is not on the graphics card, if so
+    std::vector<std::string> egl_devices;
     [[nodiscard]] bool possible() const { return agreement.has_value(); }
 };
 

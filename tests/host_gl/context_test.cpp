@@ -230,6 +230,7 @@ TEST_F(Capabilities, NoteNamesTheVariableOnlyWhereAnotherDeviceExists) {
     const bool hardware = std::any_of(devices.begin(), devices.end(), [](auto d) { return !isSoftwareDevice(d); });
     const SluiceHostCapabilities caps = queryCapabilities();
     const bool software = std::string_view(&caps.renderer[0]).find("llvmpipe") != std::string_view::npos;
+    const DeviceVariable unset("");
     const std::string note = glDeviceNote();
     EXPECT_EQ(note.find("set SLUICE_GL_DEVICE=") != std::string::npos, hardware && software) << note;
     EXPECT_EQ(note.empty(), !(hardware && software)) << note;

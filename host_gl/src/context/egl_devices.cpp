@@ -4,10 +4,8 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <array>
 #include <string>
-#include <string_view>
 
 #include "context/device_choice.hpp"
 #include "sluice/host_gl/context.hpp"
@@ -18,7 +16,6 @@ namespace {
 
 // EGL registry, EGL_EXT_device_query_name; libepoxy 1.5.10 does not know it yet.
 constexpr EGLint kRendererName = 0x335F;  // EGL_RENDERER_EXT
-constexpr std::array<std::string_view, 3> kSoftwareRenderers{"llvmpipe", "softpipe", "swrast"};
 
 const char* textOf(EGLDeviceEXT device, EGLint name) {
     const char* text = eglQueryDeviceStringEXT(device, name);
@@ -79,21 +76,11 @@ std::vector<std::string> eglDevices() {
 
 std::string glDeviceNote() {
     const GLubyte* name = glGetString(GL_RENDERER);
-    const std::string_view renderer = name != nullptr ? reinterpret_cast<const char*>(name) : "";
-    const bool software = std::any_of(kSoftwareRenderers.begin(), kSoftwareRenderers.end(), [&](std::string_view part) {
-        return renderer.find(part) != std::string_view::npos;
-    });
-    if (!software) {
-        return {};
+    std::vector<bool> software;
+    for (EGLDeviceEXT device : listEglDevices()) {
+        software.push_back(isSoftwareDevice(device));
     }
-    const std::vector<EGLDeviceEXT> devices = listEglDevices();
-    const auto found =
-        std::find_if(devices.begin(), devices.end(), [](EGLDeviceEXT d) { return !isSoftwareDevice(d); });
-    if (found == devices.end()) {
-        return {};
-    }
-    return fmt::format("OpenGL is the software renderer '{}' although EGL device {} is none; set {}={} to use it",
-                       renderer, found - devices.begin(), kGlDeviceVariable, found - devices.begin());
+    return deviceNote(name != nullptr ? reinterpret_cast<const char*>(name) : "", glDeviceVariable(), software);
 }
 
 }  // namespace sluice::host

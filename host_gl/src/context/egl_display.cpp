@@ -135,7 +135,13 @@ Result<std::shared_ptr<EglDisplay>> EglDisplay::open() {
         return choice.error();
     }
     if (choice.value()) {
-        return openDevice(*choice.value());
+        auto chosen = openDevice(*choice.value());
+        if (!chosen && chosen.error().thing != kGlDeviceVariable) {
+            Error error = chosen.error();
+            error.thing = fmt::format("{}={}: {}", kGlDeviceVariable, *choice.value(), error.thing);
+            return error;
+        }
+        return chosen;
     }
     std::string tried;
     if (inEglList(client, "EGL_MESA_platform_surfaceless")) {

@@ -44,6 +44,7 @@ class GlContext {
 [[nodiscard]] std::vector<std::string> eglDevices();
 
 /// A remark for the user when the current context is a software renderer although some EGL device is not; else empty.
+/// Whoever asked for the software renderer with SLUICE_GL_DEVICE (its index, or "surfaceless") is not told.
 [[nodiscard]] std::string glDeviceNote();
 
 }  // namespace sluice::host
