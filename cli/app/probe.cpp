@@ -25,7 +25,7 @@ bool has(std::uint32_t formats, SluiceFormat format) {
 }
 
 SluiceCreateInfo createInfo(const ProbeResult& result, const ProbeOptions& options) {
-    SluiceCreateInfo info = sized<SluiceCreateInfo>();
+    auto info = sized<SluiceCreateInfo>();
     info.width = kSizes[1].width;
     info.height = kSizes[1].height;
     info.image_sets = 1;
@@ -47,7 +47,7 @@ FormatProbe probeFormat(const FormatInfo& format, const ProbeResult& result, con
         return probe;
     }
     for (const scene::Size size : kSizes) {
-        SluiceError error = sized<SluiceError>();
+        auto error = sized<SluiceError>();
         const SluiceResult code = api.probe_format(&services, &info, static_cast<std::uint32_t>(format.format),
                                                    size.width, size.height, &error);
         probe.canaries.push_back({size.width, size.height, code == SLUICE_OK, code == SLUICE_OK ? "" : error.message});
@@ -98,8 +98,8 @@ void probeRenderer(ProbeResult& result, const ProbeOptions& options) {
     result.plugin = library.value().path().string();
     const host::ProbeServices services([](SluiceLogLevel level, std::string_view message) { log(level, message); });
     const SluiceCreateInfo info = createInfo(result, options);
-    SluiceRendererCapabilities vk = sized<SluiceRendererCapabilities>();
-    SluiceError error = sized<SluiceError>();
+    auto vk = sized<SluiceRendererCapabilities>();
+    auto error = sized<SluiceError>();
     if (api.describe(&services.services(), &info, &vk, &error) != SLUICE_OK) {
         result.problems.emplace_back(error.message);
         return;

@@ -29,7 +29,7 @@ class HostServicesTest : public GlTest {
   protected:
     /// Right in all but its descriptor, which no service may touch.
     static SluiceImageExport standardInput() {
-        SluiceImageExport image = sized<SluiceImageExport>();
+        auto image = sized<SluiceImageExport>();
         image.role = SLUICE_IMAGE_FLUID_COLOUR;
         image.format = SLUICE_FORMAT_RGBA8;
         image.width = 67;
@@ -50,7 +50,7 @@ TEST_F(HostServicesTest, AnExportShorterThanInAbiOneIsRefusedByItsSize) {
     for (const std::uint32_t size : {0U, 4U, 32U, kLastShortExport}) {
         image.struct_size = size;
         const std::string told = "image: struct_size is " + std::to_string(size) + ", at least 40 is needed";
-        SluiceError error = sized<SluiceError>();
+        auto error = sized<SluiceError>();
         EXPECT_EQ(table_.share_image(table_.user, &image, &error), SLUICE_ERROR_INVALID_ARGUMENT);
         EXPECT_THAT(error.message, HasSubstr(told));
         error = sized<SluiceError>();
@@ -62,7 +62,7 @@ TEST_F(HostServicesTest, AnExportShorterThanInAbiOneIsRefusedByItsSize) {
 
 TEST_F(HostServicesTest, NullIsRefusedByName) {
     const SluiceImageExport image = standardInput();
-    SluiceError error = sized<SluiceError>();
+    auto error = sized<SluiceError>();
     EXPECT_EQ(table_.share_image(table_.user, nullptr, &error), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_THAT(error.message, HasSubstr("image: it is NULL"));
     EXPECT_EQ(table_.canary(table_.user, nullptr, 1, nullptr), SLUICE_ERROR_INVALID_ARGUMENT);
@@ -87,7 +87,7 @@ TEST_F(HostServicesTest, AnErrorStructTooShortForItsMessageIsRefusedBeforeAnythi
 }
 
 TEST_F(HostServicesTest, ShortTraceEventsAreDroppedCountedAndToldOnce) {
-    SluiceTraceEvent event = sized<SluiceTraceEvent>();
+    auto event = sized<SluiceTraceEvent>();
     event.kind = SLUICE_TRACE_MARK;
     event.name = "whole";
     table_.trace(table_.user, &event);
@@ -102,7 +102,7 @@ TEST_F(HostServicesTest, ShortTraceEventsAreDroppedCountedAndToldOnce) {
 }
 
 TEST_F(HostServicesTest, TraceEventsOfUnknownKindsAreCountedAsDropped) {
-    SluiceTraceEvent event = sized<SluiceTraceEvent>();
+    auto event = sized<SluiceTraceEvent>();
     event.kind = SLUICE_TRACE_KIND_COUNT;
     table_.trace(table_.user, &event);
     event.kind = SLUICE_TRACE_MARK;

@@ -138,7 +138,7 @@ TEST_F(BogusImport, FailsByNameAndLeavesTheDescriptorToTheCallerOverAHundredCycl
     const UniqueFd bogus(memfd_create("no device memory", MFD_CLOEXEC));
     ASSERT_TRUE(bogus.valid());
     ASSERT_EQ(ftruncate(bogus.get(), 1 << 20), 0);
-    SluiceImageExport image = sized<SluiceImageExport>();
+    auto image = sized<SluiceImageExport>();
     image.role = SLUICE_IMAGE_FLUID_COLOUR;
     image.format = SLUICE_FORMAT_RGBA8;
     image.width = 67;
@@ -147,7 +147,7 @@ TEST_F(BogusImport, FailsByNameAndLeavesTheDescriptorToTheCallerOverAHundredCycl
     image.fd = bogus.get();
     image.dedicated = 1;
     // The first call may make drivers open descriptors that they keep.
-    SluiceError error = sized<SluiceError>();
+    auto error = sized<SluiceError>();
     EXPECT_EQ(services.share_image(services.user, &image, &error), SLUICE_ERROR_IMPORT);
     EXPECT_THAT(error.message, AllOf(HasSubstr("FLUID_COLOUR"), HasSubstr("67x43 RGBA8")));
     const int before = openDescriptors();
@@ -162,8 +162,8 @@ TEST_F(BogusImport, FailsByNameAndLeavesTheDescriptorToTheCallerOverAHundredCycl
 TEST_F(BogusImport, ImpossibleDescriptionsAreRefusedBeforeTheDriverSeesThem) {
     const ProbeServices probe([](SluiceLogLevel, std::string_view) {});
     const SluiceHostServices& services = probe.services();
-    SluiceError error = sized<SluiceError>();
-    SluiceImageExport image = sized<SluiceImageExport>();
+    auto error = sized<SluiceError>();
+    auto image = sized<SluiceImageExport>();
     image.role = SLUICE_IMAGE_FLUID_COLOUR;
     image.format = SLUICE_FORMAT_RGBA8;
     image.width = 67;

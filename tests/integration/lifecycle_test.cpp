@@ -58,14 +58,14 @@ TEST_F(LifecycleTest, TwentyHostsLeaveNoDescriptorBehind) {
 
 TEST_F(LifecycleTest, AHundredCanariesLeaveNoDescriptorBehind) {
     const ProbeServices probe([](SluiceLogLevel, std::string_view) {});
-    SluiceCreateInfo info = sized<SluiceCreateInfo>();
+    auto info = sized<SluiceCreateInfo>();
     info.width = kEchoWidth;
     info.height = kEchoHeight;
     info.image_sets = 1;
     info.host = queryCapabilities();
     int settled = 0;
     for (int i = 0; i < 100; ++i) {
-        SluiceError error = sized<SluiceError>();
+        auto error = sized<SluiceError>();
         const std::uint32_t format = i % 2 == 0 ? SLUICE_FORMAT_R32F : SLUICE_FORMAT_D32F;
         ASSERT_EQ(library_->api().probe_format(&probe.services(), &info, format, 67, 43, &error), SLUICE_OK)
             << error.message;

@@ -16,7 +16,7 @@ namespace sluice::host {
 namespace {
 
 SluiceCreateInfo createInfo(const FluidHostConfig& config, SluiceTimelineKind timeline) {
-    SluiceCreateInfo info = sized<SluiceCreateInfo>();
+    auto info = sized<SluiceCreateInfo>();
     info.width = config.width;
     info.height = config.height;
     info.image_sets = config.image_sets;

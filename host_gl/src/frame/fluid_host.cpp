@@ -158,7 +158,7 @@ void FluidHostImpl::capture(const Screen& screen, const SluiceCamera& camera, st
 }
 
 Status FluidHostImpl::callRenderer(const FrameInput& input, std::uint64_t frame) {
-    SluiceFrame call = sized<SluiceFrame>();
+    auto call = sized<SluiceFrame>();
     call.image_set = imageSetOf(frame, link_.info.image_sets);
     call.frame = frame;
     call.wait_value = gbufferWritten(frame);

@@ -15,8 +15,8 @@ namespace {
 
 class NativeTimeline final : public HostTimeline {
   public:
-    NativeTimeline(const TimelineDeps& deps, GlSemaphore to_renderer, GlSemaphore to_host)
-        : deps_(deps), to_renderer_(std::move(to_renderer)), to_host_(std::move(to_host)) {}
+    NativeTimeline(TimelineDeps deps, GlSemaphore to_renderer, GlSemaphore to_host)
+        : deps_(std::move(deps)), to_renderer_(std::move(to_renderer)), to_host_(std::move(to_host)) {}
 
     [[nodiscard]] SluiceTimelineKind kind() const override { return SLUICE_TIMELINE_NATIVE; }
 
