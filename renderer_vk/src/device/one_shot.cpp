@@ -113,7 +113,7 @@ Status uploadImage(const Device& device, const Image& image, std::span<const std
     }
     std::memcpy(staging.value().mapped().data(), texels.data(), texels.size());
     count(device, image, texels.size());
-    const VkBuffer buffer = staging.value().buffer();
+    VkBuffer buffer = staging.value().buffer();
     return runOnce(device, [&](VkCommandBuffer commands) {
         fullBarrier(device, commands, image.image(), image.aspect(), VK_IMAGE_LAYOUT_UNDEFINED,
                     VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
@@ -133,7 +133,7 @@ Result<std::vector<std::byte>> downloadImage(const Device& device, const Image& 
     if (!staging) {
         return staging.error();
     }
-    const VkBuffer buffer = staging.value().buffer();
+    VkBuffer buffer = staging.value().buffer();
     Status status = runOnce(device, [&](VkCommandBuffer commands) {
         fullBarrier(device, commands, image.image(), image.aspect(), layout, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL);
         const VkBufferImageCopy region = wholeImage(image);

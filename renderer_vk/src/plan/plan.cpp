@@ -118,7 +118,7 @@ class Builder {
         return result;
     }
 
-    Plan single(PassId id, std::vector<PlanImage> reads, std::string kept, const std::string& left_out) {
+    Plan single(PassId id, const std::vector<PlanImage>& reads, const std::string& kept, const std::string& left_out) {
         for (std::uint8_t other = 0; other < static_cast<std::uint8_t>(PassId::Count); ++other) {
             if (static_cast<PassId>(other) == id) {
                 keep(id, reads, outputs(), 1, kept);
