@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+#include "random_program.hpp"
+
+#include <array>
+#include <random>
+#include <stdexcept>
+#include <utility>
+
+namespace sluice::ledger::test {
+namespace {
+
+const std::vector<ActorKind> kCast = {ActorKind::GlContext,    ActorKind::VulkanQueue, ActorKind::HostThread,
+                                      ActorKind::BridgeThread, ActorKind::VulkanQueue, ActorKind::Process};
+
+bool isThread(ActorKind kind) {
+    return kind == ActorKind::HostThread || kind == ActorKind::BridgeThread;
+}
+
+/// Appends events in an order in which they can really happen, and hands over wherever the next access needs it.
+class Builder {
+  public:
+    Builder(Choices& choices, bool simple) : choices_(choices), simple_(simple), execution_(start()) {}
+
+    Program build() {
+        while (!choices_.empty() && size_ + 40 < kMaxNodes) {
+            step();
+        }
+        return std::move(program_);
+    }
+
+  private:
+    const Program& start() {
+        program_.actors = kCast;
+        program_.ops.resize(kCast.size());
+        batch_.resize(kCast.size(), 0);
+        // Two timelines of each actor's own: a plain one and one with lists.
+        for (std::size_t i = 0; i < 2 * kCast.size(); ++i) {
+            program_.syncs.push_back({SyncKind::Timeline, i >= kCast.size()});
+        }
+        value_.resize(program_.syncs.size(), 0);
+        last_signal_.resize(program_.syncs.size(), -1);
+        return program_;
+    }
+
+    ActorId anyActor() { return static_cast<ActorId>(choices_.below(static_cast<std::uint32_t>(kCast.size()))); }
+
+    void emit(ActorId actor, EventKind kind, ObjectId object, std::uint64_t value = 0, std::uint16_t aux = 0) {
+        Op op;
+        op.event.kind = kind;
+        op.event.actor = actor;
+        op.event.object = object;
+        op.event.value = value;
+        op.event.aux = aux;
+        op.batch = kind == EventKind::Submit ? ++batch_[object] : batch_[actor];
+        if (!execution_.run(actor, op)) {
+            throw std::logic_error("the generator made an event that cannot happen");
+        }
+        program_.ops[actor].push_back(op);
+        ++size_;
+    }
+
+    void step() {
+        const ActorId actor = anyActor();
+        switch (choices_.below(10)) {
+            case 0:
+                return submit(actor, anyActor());
+            case 1:
+                if (last_signal_[actor] < 0 || execution_.before(last_signal_[actor], actor)) {
+                    raise(actor, actor);
+                }
+                return;
+            case 2: {
+                const ActorId other = anyActor();
+                const auto reached = static_cast<std::uint32_t>(value_[other]);
+                return emit(actor, EventKind::Wait, other, reached == 0 ? 0 : choices_.below(reached + 1));
+            }
+            case 3:
+                return access(actor, EventKind::Layout);
+            case 4:
+            case 5:
+            case 6:
+                return access(actor, EventKind::Write);
+            default:
+                return access(actor, EventKind::Read);
+        }
+    }
+
+    void submit(ActorId thread, ActorId stream) {
+        if (isThread(kCast[thread]) && !isThread(kCast[stream]) && kCast[stream] != ActorKind::Process) {
+            emit(thread, EventKind::Submit, stream);
+        }
+    }
+
+    void access(ActorId actor, EventKind kind) {
+        const ObjectId r = choices_.below(kResources);
+        const Execution::Access* write = nullptr;
+        for (const auto& earlier : execution_.accesses[r]) {
+            const bool conflict = kind != EventKind::Read || earlier.event.kind != EventKind::Read;
+            if (conflict && earlier.actor != actor && !execution_.before(earlier.node, actor)) {
+                handOff(earlier.actor, actor, r);
+            }
+            write = earlier.event.kind != EventKind::Read ? &earlier : write;
+        }
+        if (write != nullptr && write->actor != actor && !execution_.visible(write->node, actor, r)) {
+            plainHandOff(write->actor, actor);
+        }
+        switch (kind) {
+            case EventKind::Write:
+                return emit(actor, kind, r, ++version_[r]);
+            case EventKind::Layout: {
+                const std::uint32_t next = 1 + choices_.below(3);
+                const std::uint32_t old = std::exchange(layout_[r], next);
+                return emit(actor, kind, r, std::uint64_t{next} << 32U | old);
+            }
+            default:
+                emit(actor, kind, r, choices_.below(2) == 0 ? version_[r] : 0);
+                if (choices_.below(3) == 0) {
+                    emit(actor, EventKind::Witness, r, version_[r], static_cast<std::uint16_t>(Verdict::Fresh));
+                }
+        }
+    }
+
+    void raise(ActorId actor, ObjectId timeline) {
+        emit(actor, EventKind::Signal, timeline, value_[timeline] += 1 + choices_.below(3));
+        last_signal_[timeline] = execution_.last(actor);
+    }
+
+    void plainHandOff(ActorId from, ActorId to) {
+        // A timeline may change hands where its last signal is known to have happened.
+        ObjectId sync = from;
+        if (!simple_) {
+            const ActorId other = anyActor();
+            sync = last_signal_[other] < 0 || execution_.before(last_signal_[other], from) ? other : from;
+            if (last_signal_[sync] >= 0 && !execution_.before(last_signal_[sync], from)) {
+                return fence(from, to);
+            }
+        }
+        const std::uint64_t old = value_[sync];
+        raise(from, sync);
+        emit(to, EventKind::Wait, sync, old + 1 + choices_.below(static_cast<std::uint32_t>(value_[sync] - old)));
+    }
+
+    void fence(ActorId from, ActorId to) {
+        program_.syncs.push_back({SyncKind::Fence, false});
+        const auto sync = static_cast<ObjectId>(program_.syncs.size() - 1);
+        emit(from, EventKind::Signal, sync);
+        if (isThread(kCast[to])) {
+            emit(to, EventKind::WaitBegin, sync);
+        }
+        emit(to, EventKind::Wait, sync);
+    }
+
+    void binary(ActorId from, ActorId to) {
+        auto& [sync, waited] = binaries_.try_emplace({from, to}, 0U, -1).first->second;
+        if (simple_ || waited < 0 || !execution_.before(waited, from)) {
+            program_.syncs.push_back({SyncKind::Binary, false});
+            sync = static_cast<ObjectId>(program_.syncs.size() - 1);
+        }
+        emit(from, EventKind::Signal, sync);
+        emit(to, EventKind::Wait, sync);
+        waited = execution_.last(to);
+    }
+
+    void listed(ActorId from, ActorId to, ObjectId resource) {
+        const auto sync = static_cast<ObjectId>(kCast.size() + from);
+        for (const ActorId side : {from, to}) {
+            const std::uint32_t more = choices_.below(1U << kResources);
+            for (ObjectId r = 0; r < kResources; ++r) {
+                if (r == resource || (more >> r & 1U) != 0) {
+                    emit(side, EventKind::Names, r);
+                }
+            }
+            if (side == from) {
+                emit(side, EventKind::Signal, sync, ++value_[sync]);
+            } else {
+                emit(side, EventKind::Wait, sync, value_[sync]);
+            }
+        }
+    }
+
+    void handOff(ActorId from, ActorId to, ObjectId resource) {
+        switch (choices_.below(5)) {
+            case 0:
+                return fence(from, to);
+            case 1:
+                return binary(from, to);
+            case 2:
+                return listed(from, to, resource);
+            case 3:
+                if (isThread(kCast[from]) && !isThread(kCast[to]) && kCast[to] != ActorKind::Process) {
+                    return submit(from, to);
+                }
+                [[fallthrough]];
+            default:
+                return plainHandOff(from, to);
+        }
+    }
+
+    Choices& choices_;
+    bool simple_;
+    Program program_;
+    std::vector<std::uint32_t> batch_;
+    std::vector<std::uint64_t> value_;
+    std::vector<int> last_signal_;
+    std::map<std::pair<ActorId, ActorId>, std::pair<ObjectId, int>> binaries_;
+    std::array<std::uint64_t, kResources> version_{};
+    std::array<std::uint32_t, kResources> layout_{};
+    std::size_t size_ = 0;
+    Execution execution_;
+};
+
+}  // namespace
+
+Program wellOrdered(Choices& choices, bool simple) {
+    return Builder(choices, simple).build();
+}
+
+std::string mutate(Program& program, Choices& choices) {
+    std::vector<std::pair<std::size_t, std::size_t>> places;
+    for (std::size_t actor = 0; actor < program.ops.size(); ++actor) {
+        for (std::size_t i = 0; i < program.ops[actor].size(); ++i) {
+            const EventKind kind = program.ops[actor][i].event.kind;
+            if (kind == EventKind::Signal || kind == EventKind::Wait || kind == EventKind::Names ||
+                kind == EventKind::Submit) {
+                places.emplace_back(actor, i);
+            }
+        }
+    }
+    if (places.empty()) {
+        return "nothing to break";
+    }
+    const auto at = (choices.below(256) * 256 + choices.below(256)) % places.size();
+    const auto [actor, index] = places[at];
+    auto& ops = program.ops[actor];
+    const auto place = ops.begin() + static_cast<std::ptrdiff_t>(index);
+    Event& event = place->event;
+    const std::string what = std::string(toString(event.kind)) + " " + std::to_string(event.object) + " of actor " +
+                             std::to_string(actor) + " at " + std::to_string(index);
+    const bool timeline = (event.kind == EventKind::Signal || event.kind == EventKind::Wait) &&
+                          program.syncs[event.object].kind == SyncKind::Timeline;
+    const auto how = choices.below(4);
+    if (how == 1 && timeline) {
+        event.value += 1 + choices.below(2);
+        return "raised the value of " + what;
+    }
+    if (how == 2 && timeline && event.value > 1) {
+        --event.value;
+        return "lowered the value of " + what;
+    }
+    if (how == 3 && index + 1 < ops.size() && event.kind != EventKind::Submit &&
+        ops[index + 1].event.kind != EventKind::Submit) {
+        std::swap(event, ops[index + 1].event);
+        return "swapped with the next: " + what;
+    }
+    if (how == 2 && timeline && event.kind == EventKind::Signal) {
+        ops.insert(place, *place);
+        return "duplicated " + what;
+    }
+    ops.erase(place);
+    return "dropped " + what;
+}
+
+std::vector<Event> interleave(const Program& program, std::uint32_t seed) {
+    std::mt19937 random(seed);
+    std::vector<std::size_t> next(program.ops.size(), 0);
+    // Submissions that still have to be logged, by stream.
+    std::map<std::size_t, std::set<std::uint32_t>> open;
+    std::size_t left = 0;
+    for (const auto& ops : program.ops) {
+        left += ops.size();
+        for (const Op& op : ops) {
+            if (op.event.kind == EventKind::Submit) {
+                open[op.event.object].insert(op.batch);
+            }
+        }
+    }
+    const auto possible = [&](std::size_t actor) {
+        const Op& op = program.ops[actor][next[actor]];
+        if (op.event.kind != EventKind::Submit) {
+            const auto& mine = open[actor];
+            return mine.empty() || *mine.begin() > op.batch;
+        }
+        const std::size_t stream = op.event.object;
+        const bool given =
+            next[stream] == program.ops[stream].size() || program.ops[stream][next[stream]].batch >= op.batch;
+        return given && *open[stream].begin() == op.batch;
+    };
+    std::vector<Event> log;
+    while (log.size() < left) {
+        std::size_t actor = random() % next.size();
+        std::size_t tried = 0;
+        while (tried < next.size() && (next[actor] == program.ops[actor].size() || !possible(actor))) {
+            actor = (actor + 1) % next.size();
+            ++tried;
+        }
+        if (tried == next.size()) {
+            throw std::logic_error("the program has no log");
+        }
+        // Long runs of one actor as well as quick changes: waits far ahead of their signals.
+        for (std::size_t run = 1 + random() % 8; run > 0 && next[actor] < program.ops[actor].size() && possible(actor);
+             --run) {
+            const Op& op = program.ops[actor][next[actor]++];
+            if (op.event.kind == EventKind::Submit) {
+                open[op.event.object].erase(op.batch);
+            }
+            log.push_back(op.event);
+            log.back().sequence = log.size() - 1;
+        }
+    }
+    return log;
+}
+
+Ledger replay(const Program& program, const std::vector<Event>& log, bool prune) {
+    LedgerOptions options;
+    options.performance = false;
+    options.prune = prune;
+    Ledger ledger(options);
+    for (std::size_t i = 0; i < program.actors.size(); ++i) {
+        ledger.declareActor(static_cast<ActorId>(i), program.actors[i], "actor" + std::to_string(i));
+    }
+    for (std::size_t i = 0; i < program.syncs.size(); ++i) {
+        ledger.declareSync(static_cast<ObjectId>(i), program.syncs[i].kind, "sync" + std::to_string(i), 0,
+                           program.syncs[i].listed ? kListedOnly : 0);
+    }
+    for (ObjectId i = 0; i < kResources; ++i) {
+        ledger.declareResource(i, "resource" + std::to_string(i), 0, kNoActor);
+    }
+    for (const Event& event : log) {
+        ledger.record(event);
+    }
+    return ledger;
+}
+
+std::string describe(const Program& program) {
+    std::string text;
+    for (std::size_t actor = 0; actor < program.ops.size(); ++actor) {
+        text += std::string(toString(program.actors[actor])) + " " + std::to_string(actor) + ":";
+        for (const Op& op : program.ops[actor]) {
+            text += " " + std::string(toString(op.event.kind)) + "(" + std::to_string(op.event.object) + "," +
+                    std::to_string(op.event.value) + ")@" + std::to_string(op.batch);
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+}  // namespace sluice::ledger::test
