@@ -273,9 +273,9 @@ TEST(LedgerFlow, AMillionHandOffsAreCleanInBoundedMemory) {
 }
 
 TEST(LedgerFlow, AnOldWaitAfterManyHandOffsOrdersNoMoreThanItsSignal) {
-    for (const bool prune : {false, true}) {
+    for (const std::size_t prune_above : {std::size_t{2}, std::size_t{64}, SIZE_MAX}) {
         LedgerOptions options;
-        options.prune = prune;
+        options.prune_above = prune_above;
         Script s(options);
         s.write(kGl, 21, 1);
         for (std::uint64_t k = 1; k <= 1000; ++k) {
@@ -290,7 +290,7 @@ TEST(LedgerFlow, AnOldWaitAfterManyHandOffsOrdersNoMoreThanItsSignal) {
         s.read(kEngine, 21, 1);
         s.read(kEngine, 20, 7);
         s.ledger.finish(End::Closed);
-        ASSERT_THAT(kinds(s.ledger), ElementsAre(FindingKind::ReadAfterWrite)) << prune << tell(s.ledger);
+        ASSERT_THAT(kinds(s.ledger), ElementsAre(FindingKind::ReadAfterWrite)) << prune_above << tell(s.ledger);
         EXPECT_EQ(s.ledger.findings()[0].second.object, 20U);
     }
 }

@@ -310,10 +310,10 @@ std::vector<Event> interleave(const Program& program, std::uint32_t seed) {
     return log;
 }
 
-Ledger replay(const Program& program, const std::vector<Event>& log, bool prune) {
+Ledger replay(const Program& program, const std::vector<Event>& log, std::size_t prune_above) {
     LedgerOptions options;
     options.performance = false;
-    options.prune = prune;
+    options.prune_above = prune_above;
     Ledger ledger(options);
     for (std::size_t i = 0; i < program.actors.size(); ++i) {
         ledger.declareActor(static_cast<ActorId>(i), program.actors[i], "actor" + std::to_string(i));

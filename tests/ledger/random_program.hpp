@@ -34,7 +34,7 @@ std::string mutate(Program& program, Choices& choices);
 [[nodiscard]] std::vector<Event> interleave(const Program& program, std::uint32_t seed);
 
 /// A ledger that was told the declarations and the log. Performance findings are off: random waits are often useless.
-[[nodiscard]] Ledger replay(const Program& program, const std::vector<Event>& log, bool prune = true);
+[[nodiscard]] Ledger replay(const Program& program, const std::vector<Event>& log, std::size_t prune_above = 64);
 
 [[nodiscard]] std::string describe(const Program& program);
 

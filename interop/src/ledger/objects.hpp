@@ -77,7 +77,7 @@ struct Sync {
     std::uint64_t initial = 0, current = 0;
     std::uint64_t forced = 0;    ///< highest value that a watchdog gave
     std::vector<Entry> entries;  ///< ascending values; a binary or a fence has at most one
-    std::size_t prune_at = 64;
+    std::size_t prune_at = 0;
     std::vector<SyncUse> uses;  ///< one per actor
     std::vector<Slot> waiters;  ///< actors held here
     std::optional<Event> consumed, destroyed;

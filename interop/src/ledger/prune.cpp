@@ -85,7 +85,8 @@ void Ledger::State::prune(Sync& sync) {
         ++kept;
     }
     entries.resize(kept);
-    sync.prune_at = std::max<std::size_t>({64, 2 * kept, resources.size()});
+    // Looking costs as much as there are objects and signals: wait for as many new signals.
+    sync.prune_at = std::max(2 * kept, (resources.size() + syncs.size()) / 4);
 }
 
 }  // namespace sluice::ledger

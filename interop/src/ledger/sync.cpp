@@ -146,7 +146,7 @@ void Ledger::State::signal(Actor& by, const Item& item) {
                 by.name, name(sync.consumed->actor));
         }
     }
-    if (options.prune && sync.entries.size() >= sync.prune_at) {
+    if (sync.entries.size() >= std::max(sync.prune_at, options.prune_above)) {
         prune(sync);
     }
     Entry entry;

@@ -32,7 +32,9 @@ struct LedgerOptions {
     std::uint64_t useless_wait_ns = 0;            ///< useless and over-waits cheaper than this are not told
     std::size_t max_findings = 10000;             ///< further ones are counted, not kept
     bool performance = true;                      ///< tell useless-wait and over-wait
-    bool prune = true;                            ///< false: forget no signal; memory grows with the run (for tests)
+    /// Signals of one sync that are kept before those are looked for that may be forgotten. The verdict does not depend
+    /// on it: 2 in tests looks often, SIZE_MAX never.
+    std::size_t prune_above = 64;
 };
 
 /// An actor that stands still, for the watchdog and for the end of a log.
