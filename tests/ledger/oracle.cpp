@@ -12,7 +12,8 @@ constexpr std::uint32_t kAll = 0xFFFFFFFF;
 }  // namespace
 
 bool isAccess(EventKind kind) {
-    return kind == EventKind::Read || kind == EventKind::Write || kind == EventKind::Layout;
+    return kind == EventKind::Read || kind == EventKind::Write || kind == EventKind::Layout ||
+           kind == EventKind::Release || kind == EventKind::Acquire;
 }
 
 Execution::Execution(const Program& program)

@@ -93,9 +93,17 @@ class Builder {
 
     void access(ActorId actor, EventKind kind) {
         const ObjectId r = choices_.below(kResources);
+        const ActorId owner = owner_[r];
+        const bool transfer = owner != kNoActor && owner != actor;
+        const bool acquires = transfer || (owner == kNoActor && choices_.below(8) == 0);
+        std::uint64_t pair = 0;
+        if (transfer) {
+            pair = layouts(r);
+            emit(owner, EventKind::Release, r, pair, choices_.below(2) == 0 ? actor : kNoActor);
+        }
         const Execution::Access* write = nullptr;
         for (const auto& earlier : execution_.accesses[r]) {
-            const bool conflict = kind != EventKind::Read || earlier.event.kind != EventKind::Read;
+            const bool conflict = acquires || kind != EventKind::Read || earlier.event.kind != EventKind::Read;
             if (conflict && earlier.actor != actor && !execution_.before(earlier.node, actor)) {
                 handOff(earlier.actor, actor, r);
             }
@@ -104,20 +112,28 @@ class Builder {
         if (write != nullptr && write->actor != actor && !execution_.visible(write->node, actor, r)) {
             plainHandOff(write->actor, actor);
         }
+        if (acquires) {
+            // Vulkan's second half of a transfer repeats the pair, others start from what the first half left.
+            const bool repeat = transfer && choices_.below(2) == 0;
+            emit(actor, EventKind::Acquire, r, repeat ? pair : layouts(r), transfer ? owner : kNoActor);
+            owner_[r] = actor;
+        }
         switch (kind) {
             case EventKind::Write:
                 return emit(actor, kind, r, ++version_[r]);
-            case EventKind::Layout: {
-                const std::uint32_t next = 1 + choices_.below(3);
-                const std::uint32_t old = std::exchange(layout_[r], next);
-                return emit(actor, kind, r, std::uint64_t{next} << 32U | old);
-            }
+            case EventKind::Layout:
+                return emit(actor, kind, r, layouts(r));
             default:
                 emit(actor, kind, r, choices_.below(2) == 0 ? version_[r] : 0);
                 if (choices_.below(3) == 0) {
                     emit(actor, EventKind::Witness, r, version_[r], static_cast<std::uint16_t>(Verdict::Fresh));
                 }
         }
+    }
+
+    std::uint64_t layouts(ObjectId resource) {
+        const std::uint32_t next = 1 + choices_.below(3);
+        return std::uint64_t{next} << 32U | std::exchange(layout_[resource], next);
     }
 
     void raise(ActorId actor, ObjectId timeline) {
@@ -205,6 +221,7 @@ class Builder {
     std::map<std::pair<ActorId, ActorId>, std::pair<ObjectId, int>> binaries_;
     std::array<std::uint64_t, kResources> version_{};
     std::array<std::uint32_t, kResources> layout_{};
+    std::array<ActorId, kResources> owner_{kNoActor, kNoActor, kNoActor, kNoActor};
     std::size_t size_ = 0;
     Execution execution_;
 };
