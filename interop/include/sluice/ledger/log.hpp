@@ -11,9 +11,11 @@
 // Declarations stand before the first event that speaks of them. An unknown chunk type is skipped.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -34,10 +36,11 @@ struct LogSink {
 [[nodiscard]] LogSink sinkInto(Ledger& ledger);
 
 /// Appends to a file; may be called from any thread. Buffered: what the last flush() or a full buffer wrote survives a
-/// crash. A failed write (disk full) is told once by status(), and later records are dropped and counted.
+/// crash. After a failed write (disk full) nothing more is written: later records are dropped and counted, and status()
+/// tells that first failure and the count. Names longer than 1,024 bytes are cut.
 class LogWriter {
   public:
-    /// NOT_FOUND or IO errors name the path. An existing file is replaced.
+    /// An error (SLUICE_ERROR_INTERNAL) names the path and the reason. An existing file is replaced.
     [[nodiscard]] static Result<std::unique_ptr<LogWriter>> create(const std::string& path);
     LogWriter(const LogWriter&) = delete;
     LogWriter& operator=(const LogWriter&) = delete;
@@ -64,9 +67,14 @@ struct LogSummary {
     End end = End::Truncated;
     std::uint64_t first_ns = 0, last_ns = 0;
 };
-/// Reads a whole log into `sink`. Errors (not a log, another version, a chunk of an absurd size, an event of an unknown
-/// kind) name the file, the offset, the expected and the found. A log that ends in the middle of a chunk is read up to
-/// there and is Truncated.
+/// Reads a whole log into `sink`. Errors (SLUICE_ERROR_INVALID_ARGUMENT: not a log, another version, a chunk of an absurd
+/// size, an unknown kind, an id out of bounds, anything after the close) name the file, the offset, the expected and the
+/// found. A log that ends in the middle of a chunk is read up to there and is Truncated. Events get their place in the
+/// log as their sequence, whatever the file says. Bounds: actor ids below 1,024 (a clock has an entry per actor), sync
+/// and resource ids below 2^24, names of at most 1,024 bytes.
 [[nodiscard]] Result<LogSummary> readLog(const std::string& path, const LogSink& sink);
+/// The same from memory; `name` stands for the file in errors.
+[[nodiscard]] Result<LogSummary> readLog(std::span<const std::byte> bytes, const std::string& name,
+                                         const LogSink& sink);
 
 }  // namespace sluice::ledger

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+// The writing half of log.hpp. No fmt here: sluice_trace is linked into engines that do not have it.
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <mutex>
+#include <system_error>
+#include <vector>
+
+#include "ledger/log_bytes.hpp"
+#include "sluice/fd.hpp"
+#include "sluice/ledger/log.hpp"
+
+namespace sluice::ledger {
+namespace {
+
+constexpr std::size_t kBufferBytes = std::size_t{64} * 1024;
+
+Error fault(const std::string& path, const char* step, int code) {
+    return {SLUICE_ERROR_INTERNAL, "ledger log '" + path + "'",
+            std::string(step) + ": " + std::generic_category().message(code) + " (errno " + std::to_string(code) + ")",
+            "give a path in a writable folder with room on its disk"};
+}
+
+/// At most kMaxNameBytes, cut between two characters of UTF-8.
+std::string_view bounded(std::string_view name) {
+    if (name.size() <= kMaxNameBytes) {
+        return name;
+    }
+    std::size_t end = kMaxNameBytes;
+    while (end > 0 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) {
+        --end;
+    }
+    return name.substr(0, end);
+}
+
+}  // namespace
+
+struct LogWriter::State {
+    mutable std::mutex mutex;
+    std::string path;
+    UniqueFd file;
+    std::vector<std::byte> buffer;  ///< reserved once: record() allocates nothing
+    std::size_t open_chunk = 0;     ///< where the size of the events chunk at the buffer's end stands; 0: none is open
+    std::uint64_t sequence = 0;
+    std::uint64_t dropped = 0;
+    int failed = 0;  ///< errno of the write that failed
+
+    void writeOut() {
+        const std::byte* at = buffer.data();
+        std::size_t left = failed == 0 ? buffer.size() : 0;
+        while (left > 0) {
+            const ssize_t written = ::write(file.get(), at, left);
+            if (written < 0 && errno == EINTR) {
+                continue;
+            }
+            if (written <= 0) {
+                failed = written < 0 ? errno : EIO;
+                break;
+            }
+            at += written;
+            left -= static_cast<std::size_t>(written);
+        }
+        buffer.clear();
+        open_chunk = 0;
+    }
+    /// Makes room; false, and counted, when the log has failed before.
+    bool room(std::size_t bytes) {
+        if (failed == 0 && buffer.size() + bytes > kBufferBytes) {
+            writeOut();
+        }
+        if (failed != 0) {
+            ++dropped;
+        }
+        return failed == 0;
+    }
+    void append(const void* from, std::size_t bytes) {
+        const auto* first = static_cast<const std::byte*>(from);
+        buffer.insert(buffer.end(), first, first + bytes);
+    }
+    template <typename T>
+    void put(T value) {
+        append(&value, sizeof(value));
+    }
+    void chunk(ChunkType type, std::size_t bytes) {
+        open_chunk = 0;
+        put(static_cast<std::uint32_t>(type));
+        put(static_cast<std::uint32_t>(bytes));
+    }
+};
+
+LogWriter::LogWriter() : state_(std::make_unique<State>()) {}
+
+Result<std::unique_ptr<LogWriter>> LogWriter::create(const std::string& path) {
+    std::unique_ptr<LogWriter> writer(new LogWriter);
+    State& s = *writer->state_;
+    s.path = path;
+    s.buffer.reserve(kBufferBytes);
+    s.file = UniqueFd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
+    if (!s.file.valid()) {
+        return fault(path, "cannot create it", errno);
+    }
+    s.append(kLogMagic.data(), kLogMagic.size());
+    s.put(kLogVersion);
+    s.put(static_cast<std::uint32_t>(sizeof(Event)));
+    s.writeOut();
+    if (s.failed != 0) {
+        return fault(path, "cannot write its header", s.failed);
+    }
+    return writer;
+}
+
+LogWriter::~LogWriter() {
+    const std::scoped_lock lock(state_->mutex);
+    // Not after a failure: the last chunk may be cut, and the log did not end as it was meant to.
+    if (state_->room(kChunkHeaderBytes)) {
+        state_->chunk(ChunkType::Close, 0);
+        state_->writeOut();
+    }
+}
+
+void LogWriter::declareActor(ActorId id, ActorKind kind, std::string_view name) {
+    name = bounded(name);
+    const std::scoped_lock lock(state_->mutex);
+    if (!state_->room(kChunkHeaderBytes + kActorBytes + name.size())) {
+        return;
+    }
+    state_->chunk(ChunkType::Actor, kActorBytes + name.size());
+    state_->put(id);
+    state_->put(kind);
+    state_->put(std::uint8_t{0});
+    state_->append(name.data(), name.size());
+}
+
+void LogWriter::declareSync(ObjectId id, SyncKind kind, std::string_view name, std::uint64_t initial,
+                            std::uint16_t flags) {
+    name = bounded(name);
+    const std::scoped_lock lock(state_->mutex);
+    if (!state_->room(kChunkHeaderBytes + kSyncBytes + name.size())) {
+        return;
+    }
+    state_->chunk(ChunkType::Sync, kSyncBytes + name.size());
+    state_->put(id);
+    state_->put(kind);
+    state_->put(std::uint8_t{0});
+    state_->put(flags);
+    state_->put(initial);
+    state_->append(name.data(), name.size());
+}
+
+void LogWriter::declareResource(ObjectId id, std::string_view name, std::uint32_t layout, ActorId owner) {
+    name = bounded(name);
+    const std::scoped_lock lock(state_->mutex);
+    if (!state_->room(kChunkHeaderBytes + kResourceBytes + name.size())) {
+        return;
+    }
+    state_->chunk(ChunkType::Resource, kResourceBytes + name.size());
+    state_->put(id);
+    state_->put(layout);
+    state_->put(owner);
+    state_->put(std::uint16_t{0});
+    state_->append(name.data(), name.size());
+}
+
+void LogWriter::memoryFacts(ObjectId id, const MemoryFacts& facts) {
+    static_assert(sizeof(MemoryFacts) == kMemoryBytes - sizeof(ObjectId));
+    const std::scoped_lock lock(state_->mutex);
+    if (!state_->room(kChunkHeaderBytes + kMemoryBytes)) {
+        return;
+    }
+    state_->chunk(ChunkType::Memory, kMemoryBytes);
+    state_->put(id);
+    state_->put(facts);
+}
+
+void LogWriter::record(Event event) {
+    const std::scoped_lock lock(state_->mutex);
+    if (!state_->room(kChunkHeaderBytes + sizeof(Event))) {
+        return;
+    }
+    if (state_->open_chunk == 0) {
+        state_->chunk(ChunkType::Events, 0);
+        state_->open_chunk = state_->buffer.size() - sizeof(std::uint32_t);
+    }
+    event.sequence = state_->sequence++;
+    state_->put(event);
+    const auto bytes =
+        static_cast<std::uint32_t>(state_->buffer.size() - state_->open_chunk - sizeof(std::uint32_t));
+    std::memcpy(state_->buffer.data() + state_->open_chunk, &bytes, sizeof(bytes));
+}
+
+void LogWriter::flush() {
+    const std::scoped_lock lock(state_->mutex);
+    state_->writeOut();
+}
+
+Status LogWriter::status() const {
+    const std::scoped_lock lock(state_->mutex);
+    if (state_->failed == 0) {
+        return {};
+    }
+    Error error = fault(state_->path, "cannot write it", state_->failed);
+    error.detail += "; " + std::to_string(state_->dropped) + " records dropped since";
+    return error;
+}
+
+}  // namespace sluice::ledger
