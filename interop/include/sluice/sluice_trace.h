@@ -59,8 +59,8 @@ typedef enum SluiceTraceActorKind {
 typedef enum SluiceTraceSyncKind {
     SLUICE_TRACE_TIMELINE, /* a 64-bit counter; a wait for v is satisfied by any signal of at least v */
     SLUICE_TRACE_BINARY,   /* each signal serves one wait; values are ignored, pass 0 */
-    SLUICE_TRACE_FENCE     /* GLsync, VkFence: signalled once, waited for any number of times; values are ignored. A VkFence
-                              that was reset, or a new GLsync, is declared anew */
+    SLUICE_TRACE_FENCE /* GLsync, VkFence: signalled once, waited for any number of times; values are ignored. A VkFence
+                          that was reset, or a new GLsync, is declared anew */
 } SluiceTraceSyncKind;
 
 /* Flag of sluice_trace_sync: makes only those resources visible that sluice_trace_names lists before the signal and
@@ -103,8 +103,8 @@ SLUICE_TRACE_API uint32_t sluice_trace_actor(SluiceTraceLog* log, SluiceTraceAct
 SLUICE_TRACE_API uint32_t sluice_trace_sync(SluiceTraceLog* log, SluiceTraceSyncKind kind, const char* name,
                                             uint64_t initial_value, uint32_t flags);
 SLUICE_TRACE_API uint32_t sluice_trace_resource(SluiceTraceLog* log, const char* name, uint32_t layout, uint32_t owner);
-/* A new object under the number of an old one: a fence that was reset, a semaphore that was re-created. For engines that
- * make one each frame: it keeps the ids few. */
+/* A new object under the number of an old one: a fence that was reset, a semaphore that was re-created. For engines
+ * that make one each frame: it keeps the ids few. */
 SLUICE_TRACE_API void sluice_trace_renew_sync(SluiceTraceLog* log, uint32_t sync, SluiceTraceSyncKind kind,
                                               const char* name, uint64_t initial_value, uint32_t flags);
 

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "ledger/log_bounds.hpp"
 #include "ledger/log_bytes.hpp"
 #include "sluice/fd.hpp"
 #include "sluice/ledger/log.hpp"
@@ -220,14 +221,11 @@ class Reader {
         return true;
     }
     bool event(std::uint64_t offset, const std::byte* from) {
-        // The kind is judged as a number before anything takes it for one.
-        if (!within(offset, "a kind of event", readNumber<std::uint8_t>(from), kEventKindCount)) {
-            return false;
+        // Judged as bytes, before anything takes a number for a kind.
+        if (const std::optional<Outside> outside = outsideOfBounds(from)) {
+            return within(offset + outside->at, outside->what, outside->found, outside->bound);
         }
-        Event event = readNumber<Event>(from);
-        if (!within(offset + offsetof(Event, actor), "an actor", event.actor, kMaxActors) || !objectIsSane(offset, event)) {
-            return false;
-        }
+        auto event = readNumber<Event>(from);
         event.sequence = summary_.events++;
         if (event.time_ns != 0) {
             summary_.first_ns = summary_.first_ns == 0 ? event.time_ns : std::min(summary_.first_ns, event.time_ns);
@@ -238,43 +236,6 @@ class Reader {
             sink_.event(event);
         }
         return true;
-    }
-    /// What `object` and `aux` number depends on the kind; descriptors are numbers of the system's and free.
-    bool objectIsSane(std::uint64_t offset, const Event& event) {
-        const std::uint64_t object = offset + offsetof(Event, object);
-        const std::uint64_t aux = offset + offsetof(Event, aux);
-        switch (event.kind) {
-            case EventKind::Submit:
-                return within(object, "a stream", event.object, kMaxActors);
-            case EventKind::Release:
-            case EventKind::Acquire:
-                return within(object, "a resource", event.object, kMaxObjects) &&
-                       (event.aux == kNoActor || within(aux, "the other owner", event.aux, kMaxActors));
-            case EventKind::Destroy:
-                return within(aux, "a class of object", event.aux, static_cast<unsigned>(ObjectClass::Fd) + 1U) &&
-                       within(object, "an object", event.object, kMaxObjects);
-            case EventKind::Witness:
-                return within(aux, "a verdict", event.aux, static_cast<unsigned>(Verdict::Torn) + 1U) &&
-                       within(object, "a resource", event.object, kMaxObjects);
-            case EventKind::Signal:
-            case EventKind::Wait:
-            case EventKind::WaitBegin:
-                return within(object, "a sync object", event.object, kMaxObjects);
-            case EventKind::Read:
-            case EventKind::Write:
-            case EventKind::Layout:
-            case EventKind::Names:
-            case EventKind::Export:
-            case EventKind::Import:
-                return within(object, "a resource", event.object, kMaxObjects);
-            case EventKind::FdOpen:
-            case EventKind::FdGive:
-            case EventKind::FdClose:
-            case EventKind::Frame:
-            case EventKind::ActorEnd:
-                return true;
-        }
-        return false;
     }
 
     std::string name_;

@@ -186,8 +186,7 @@ void LogWriter::record(Event event) {
     }
     event.sequence = state_->sequence++;
     state_->put(event);
-    const auto bytes =
-        static_cast<std::uint32_t>(state_->buffer.size() - state_->open_chunk - sizeof(std::uint32_t));
+    const auto bytes = static_cast<std::uint32_t>(state_->buffer.size() - state_->open_chunk - sizeof(std::uint32_t));
     std::memcpy(state_->buffer.data() + state_->open_chunk, &bytes, sizeof(bytes));
 }
 

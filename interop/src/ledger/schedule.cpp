@@ -13,9 +13,9 @@ std::uint64_t after(std::uint64_t time, std::uint64_t duration) {
 }
 
 struct Signals {
-    std::vector<std::uint32_t> at;        ///< events
-    std::vector<std::uint64_t> reached;   ///< the highest value up to each, so that a binary search finds the first
-    std::size_t consumed = 0;             ///< binary: waits so far
+    std::vector<std::uint32_t> at;       ///< events
+    std::vector<std::uint64_t> reached;  ///< the highest value up to each, so that a binary search finds the first
+    std::size_t consumed = 0;            ///< binary: waits so far
 };
 
 bool isWait(const RecordedEvent& recorded) {
@@ -52,8 +52,7 @@ void linkSignals(const Recording& recording, std::vector<Step>& steps) {
     for (std::uint32_t i = 0; i < recording.events.size(); ++i) {
         const RecordedEvent& recorded = recording.events[i];
         if (isWait(recorded)) {
-            steps[i].signal =
-                satisfier(recording.syncs[recorded.object], syncs[recorded.object], recorded.event.value);
+            steps[i].signal = satisfier(recording.syncs[recorded.object], syncs[recorded.object], recorded.event.value);
         }
     }
 }

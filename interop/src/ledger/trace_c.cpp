@@ -2,6 +2,7 @@
 // sluice_trace.h over LogWriter: nothing here but translation, and a fence that no exception passes.
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cstring>
 #include <new>
@@ -98,10 +99,8 @@ void putMemory(SluiceTraceLog* log, EventKind kind, std::uint32_t actor, std::ui
     if (log == nullptr || facts == nullptr || !isActor(actor) || !isObject(resource)) {
         return;
     }
-    MemoryFacts copy;
-    std::memcpy(&copy, facts, sizeof(copy));
     try {
-        log->writer->memoryFacts(resource, copy);
+        log->writer->memoryFacts(resource, std::bit_cast<MemoryFacts>(*facts));
     } catch (...) {
         return;
     }
@@ -225,7 +224,8 @@ uint64_t sluice_trace_wait_begin(SluiceTraceLog* log, uint32_t actor, uint32_t s
 }
 void sluice_trace_wait_end(SluiceTraceLog* log, uint32_t actor, uint32_t sync, uint64_t value, uint64_t began_ns,
                            int timed_out) {
-    putObject(log, EventKind::Wait, actor, sync, value, 0, timed_out != 0 ? kTimedOut : std::uint16_t{0}, began_ns);
+    putObject(log, EventKind::Wait, actor, sync, value, 0,
+              static_cast<std::uint16_t>(timed_out != 0 ? kTimedOut : 0), began_ns);
 }
 void sluice_trace_submit(SluiceTraceLog* log, uint32_t thread, uint32_t stream, uint64_t number) {
     if (isActor(stream)) {

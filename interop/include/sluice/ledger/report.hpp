@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Where the time of each frame went. Pure: numbers of a recording and its schedule (schedule.hpp says when an event takes
-// place).
+// Where the time of each frame went. Pure: numbers of a recording and its schedule (schedule.hpp says when an event
+// takes place).
 //
 // Definitions, for the events of one frame:
 // - span: from the earliest begin to the latest end.
@@ -9,13 +9,17 @@
 //   thread sleeps for another reason, so that counts as busy.
 // - overlap achieved: the sum of all busy times less the length of their union: what running side by side saved against
 //   running one after the other.
-// - overlap possible: the sum of all busy times less the longest: what would be saved if all else ran beside the busiest.
+// - overlap possible: the sum of all busy times less the longest: what would be saved if all else ran beside the
+// busiest.
 //   It needs frames that overlap as well; within one frame the order may forbid it. achieved <= possible.
-// - hand-off latency: from the end of a signal to the end of a wait that it satisfied, 0 if the logged times say less. A
+// - hand-off latency: from the end of a signal to the end of a wait that it satisfied, 0 if the logged times say less.
+// A
 //   signal that lies ready for a while before anybody asks makes it long: that is slack.
-// - wake-up latency: the same over those waits alone that had begun before their signal and whose duration was measured:
+// - wake-up latency: the same over those waits alone that had begun before their signal and whose duration was
+// measured:
 //   what the hand-over itself costs.
-// - critical path: backward from the frame's last end. A wait that was held up leads to its signal, a stream's work that
+// - critical path: backward from the frame's last end. A wait that was held up leads to its signal, a stream's work
+// that
 //   was held up by its submission leads to the submitting thread, all else to what the actor did before. It ends where
 //   the frame begins. Shortening anything that is not on it does not shorten the frame.
 #pragma once
@@ -44,7 +48,8 @@ struct Stall {
 struct PathPart {
     std::uint32_t actor = kNone;
     std::uint64_t begin_ns = 0, end_ns = 0;
-    std::uint32_t entered_by = kNone;  ///< event: the wait or the first submitted work that began it; kNone at the start
+    std::uint32_t entered_by =
+        kNone;  ///< event: the wait or the first submitted work that began it; kNone at the start
 };
 
 struct FrameReport {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // When the events of a recording took place, and what each wait and submission waited for.
 //
-// A log has the time at which an event was *logged*. A thread's events take place then. A stream (GL context, Vulkan queue)
-// is logged while it is being fed and runs later, so its events are moved to the earliest time that the log allows:
+// A log has the time at which an event was *logged*. A thread's events take place then. A stream (GL context, Vulkan
+// queue) is logged while it is being fed and runs later, so its events are moved to the earliest time that the log
+// allows:
 // - an event begins when it was logged, but not before the end of what its actor did before, nor before the end of the
 //   Submit that it came with;
 // - it ends after its logged duration; a stream's wait without one ends at the end of the signal that satisfied it.
@@ -25,9 +26,9 @@ struct Step {
     [[nodiscard]] std::uint64_t length() const { return end_ns - begin_ns; }
 };
 
-/// One step per event of the recording. A timeline's wait is satisfied by the first signal, in the log's order, of at least
-/// its value; the n-th wait on a binary object by the n-th signal; any wait on a fence by its first signal. Waits that
-/// timed out and waits for the initial value have none.
+/// One step per event of the recording. A timeline's wait is satisfied by the first signal, in the log's order, of at
+/// least its value; the n-th wait on a binary object by the n-th signal; any wait on a fence by its first signal. Waits
+/// that timed out and waits for the initial value have none.
 [[nodiscard]] std::vector<Step> schedule(const Recording& recording);
 
 [[nodiscard]] bool isStream(ActorKind kind);
