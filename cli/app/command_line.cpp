@@ -14,6 +14,7 @@
 
 #include "app/commands.hpp"
 #include "app/help.hpp"
+#include "app/ledger_commands.hpp"
 #include "app/log.hpp"
 #include "app/parse_values.hpp"
 
@@ -78,6 +79,7 @@ struct Line {
     ExplainOptions explain;
     GenerateOptions generate;
     ConvertOptions convert;
+    LedgerCommands ledger;
     int verbosity = 0;
     std::function<int()> run;
 };
@@ -223,6 +225,7 @@ int parseAndRun(int argc, const char* const* argv) {
     addExplain(line);
     addGenerate(line);
     addConvert(line);
+    addLedgerCommands(line.app, line.ledger, line.run);
     for (CLI::App* command : line.app.get_subcommands(nullptr)) {
         command->group("Commands");
     }
@@ -236,7 +239,7 @@ int parseAndRun(int argc, const char* const* argv) {
         // --help and --version stop with success; everything else is a usage error whatever CLI11 numbers it.
         return line.app.exit(stop) == 0 ? kExitOk : kExitUsage;
     }
-    startLog(line.verbosity, line.render.quiet || line.generate.quiet);
+    startLog(line.verbosity, line.render.quiet || line.generate.quiet || line.ledger.diagnose.quiet);
     return line.run();
 }
 
