@@ -9,6 +9,7 @@
 #include "bytes.hpp"
 #include "encode.hpp"
 #include "gzip.hpp"
+#include "ledger_seeds.hpp"
 #include "sluice/particles/generate.hpp"
 
 namespace {
@@ -115,6 +116,7 @@ int main(int argc, char** argv) {
     put("ply/big-endian", text("ply\nformat binary_big_endian 1.0\nelement vertex 0\nend_header\n"));
     put("bgeo/many-kinds", bgeoOfManyKinds());
     put("bgeo/json", text("\x7fNSJb"));
+    ok = sluice::fuzz::writeLedgerSeeds(folder / "ledger_log") && ok;
     if (!ok) {
         std::fprintf(stderr, "make_corpus: cannot write into %s\n", folder.c_str());
         return 1;

@@ -14,6 +14,8 @@ void pos(std::span<const std::byte> bytes);
 void ply(std::span<const std::byte> bytes);
 void bgeo(std::span<const std::byte> bytes);
 void scene(std::span<const std::byte> bytes);
+/// Reads a log, judges it with the ledger, and computes and draws nothing that it could not hold.
+void ledger_log(std::span<const std::byte> bytes);
 
 /// Does what a target does when a promise is broken; for the test of the replay itself.
 [[noreturn]] void breakPromise();
