@@ -103,6 +103,12 @@ std::string verdict(const Diagnosis& diagnosis) {
     return text;
 }
 
+bool enteredByWait(const Diagnosis& diagnosis, const ledger::PathPart& part) {
+    const std::uint32_t cause =
+        part.entered_by == ledger::kNone ? ledger::kNone : diagnosis.steps[part.entered_by].cause;
+    return cause != ledger::kNone && diagnosis.recording.events[cause].event.kind == ledger::EventKind::Signal;
+}
+
 std::string objectName(const ledger::Recording& recording, const ledger::RecordedEvent& event) {
     switch (ledger::objectUse(event.event)) {
         case ledger::ObjectUse::Sync:

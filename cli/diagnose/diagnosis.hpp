@@ -44,6 +44,9 @@ struct Diagnosis {
 [[nodiscard]] std::string formatTime(std::uint64_t ns);
 /// "clean" or "2 errors, 1 warning".
 [[nodiscard]] std::string verdict(const Diagnosis& diagnosis);
+/// Whether a part of a critical path began when a wait was satisfied, rather than when work was submitted or at the
+/// start.
+[[nodiscard]] bool enteredByWait(const Diagnosis& diagnosis, const ledger::PathPart& part);
 /// The object of an event by name; "fd 7" for descriptors; empty where the event has none.
 [[nodiscard]] std::string objectName(const ledger::Recording& recording, const ledger::RecordedEvent& event);
 

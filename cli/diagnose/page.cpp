@@ -110,13 +110,16 @@ class PageData {
             const bool timed_out = wait && (recorded.event.flags & ledger::kTimedOut) != 0;
             const bool open = wait && !timed_out && step.signal == kNone &&
                               recorded.event.value > d_.recording.syncs[recorded.object].initial;
+            const bool idle =
+                step.cause != kNone && d_.recording.events[step.cause].event.kind == ledger::EventKind::Submit;
             rows.push_back({toString(recorded.event.kind), recorded.actor, objectName(d_.recording, recorded),
                             number(recorded.event.value), recorded.frame, at(step.begin_ns), at(step.end_ns),
-                            placeOf(step.signal), i, timed_out ? 2 : (open ? 1 : 0)});
+                            placeOf(step.signal), i, (timed_out ? 2 : (open ? 1 : 0)) + (idle ? 4 : 0)});
         }
         return rows;
     }
-    /// [frame, begin, end, stalled, achieved, possible, [[actor, begin, end, entered by]], stalls, hand-off].
+    /// [frame, begin, end, stalled, achieved, possible, [[actor, begin, end, entered by, 1 by a wait]], stalls,
+    /// hand-off].
     [[nodiscard]] Json frames() const {
         Json rows = Json::array();
         for (const ledger::FrameReport& frame : d_.report.frames) {
@@ -125,7 +128,8 @@ class PageData {
             }
             Json path = Json::array();
             for (const ledger::PathPart& part : frame.path) {
-                path.push_back({part.actor, at(part.begin_ns), at(part.end_ns), placeOf(part.entered_by)});
+                path.push_back({part.actor, at(part.begin_ns), at(part.end_ns), placeOf(part.entered_by),
+                                enteredByWait(d_, part) ? 1 : 0});
             }
             rows.push_back({frame.frame, at(frame.begin_ns), at(frame.end_ns), frame.stalled_ns,
                             frame.overlap_achieved_ns, frame.overlap_possible_ns, std::move(path), stalls(frame.stalls),

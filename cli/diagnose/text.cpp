@@ -96,7 +96,7 @@ std::string frameText(const Diagnosis& d, const FrameReport& frame, const char* 
         std::string entered = "its own work";
         if (part.entered_by != ledger::kNone) {
             const ledger::RecordedEvent& event = d.recording.events[part.entered_by];
-            entered = event.event.kind == ledger::EventKind::Wait
+            entered = enteredByWait(d, part)
                           ? fmt::format("wait for {} >= {}", objectName(d.recording, event), event.event.value)
                           : std::string("its submission");
         }

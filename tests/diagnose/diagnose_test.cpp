@@ -143,9 +143,10 @@ TEST_F(Diagnose, JsonReportIsThatOfTheArithmetic) {
         path.push_back(part["actor"].get<std::string>());
     }
     EXPECT_THAT(path, ElementsAre("engine thread", "queue", "engine thread"));
-    // Busy: thread 0..450 us; gl 0..230 us; queue 0..560 us. All of the thread's and gl's lies beside the queue's.
-    EXPECT_EQ(frame["overlap_possible_ns"], 680000);
-    EXPECT_EQ(frame["overlap_achieved_ns"], 680000);
+    // Busy: thread 0..450 us, gl from its submission 20..230, queue from its own 245..560: 975 us in all, 560 of them
+    // covered, 450 the longest.
+    EXPECT_EQ(frame["overlap_possible_ns"], 525000);
+    EXPECT_EQ(frame["overlap_achieved_ns"], 415000);
 }
 
 TEST_F(Diagnose, TheTextNamesOneFrameOnRequest) {
@@ -217,12 +218,14 @@ TEST_F(Diagnose, TheSampleEngineIsToldItsMissingWait) {
     const Outcome broken = run("diagnose broken.log --json");
     EXPECT_EQ(broken.code, 1);
     std::set<std::string> ids;
-    for (const Json& finding : Json::parse(broken.out)["findings"]) {
+    const Json json = Json::parse(broken.out);
+    for (const Json& finding : json["findings"]) {
         if (finding["severity"] != "info") {
             ids.insert(finding["id"].get<std::string>());
         }
     }
-    EXPECT_THAT(ids, ElementsAre("race-read-after-write"));
+    // The forgotten wait also lets the queue overwrite its result while OpenGL reads the one before.
+    EXPECT_THAT(ids, ElementsAre("race-read-after-write", "race-write-after-read"));
     const Outcome fixed = run("diagnose fixed.log");
     EXPECT_EQ(fixed.code, 0) << fixed.out;
 }

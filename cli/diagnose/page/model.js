@@ -11,9 +11,10 @@ window.addEventListener('error', (event) => {
 const D = JSON.parse(byId('data').textContent);
 const actors = D.actors.map(([name, kind]) => ({ name, kind }));
 const events = D.events.map((e, index) => ({ index, kind: e[0], actor: e[1], object: e[2], value: e[3], frame: e[4],
-  begin: e[5], end: e[6], signal: e[7], sequence: e[8], never: e[9] === 1, timedOut: e[9] === 2, findings: [] }));
+  begin: e[5], end: e[6], signal: e[7], sequence: e[8], never: (e[9] & 1) !== 0, timedOut: (e[9] & 2) !== 0,
+  idleBefore: (e[9] & 4) !== 0, findings: [] }));
 const frames = D.frames.map((f) => ({ number: f[0], begin: f[1], end: f[2], stalled: f[3], achieved: f[4],
-  possible: f[5], path: f[6].map(([actor, begin, end, entered]) => ({ actor, begin, end, entered })), stalls: f[7],
+  possible: f[5], path: f[6].map(([actor, begin, end, entered, waited]) => ({ actor, begin, end, entered, waited: waited === 1 })), stalls: f[7],
   handOff: f[8], events: [], worst: '' }));
 if (frames.length === 0) {  // a log without frames is one
   const begin = Math.min(...events.slice(0, 20000).map((e) => e.begin), 0);

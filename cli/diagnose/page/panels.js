@@ -38,6 +38,9 @@ function drawHeader() {
     (D.dropped > 0 ? `; ${count(D.dropped, 'further finding', 'further findings')} not kept` : '');
 }
 
+// Few frames do not fill the strip.
+const overviewWidth = (width) => Math.min(width, frames.length * 60);
+
 function drawOverview() {
   const svg = byId('overview'), width = Math.max(svg.clientWidth, 300), height = 46;
   const bins = Math.min(frames.length, Math.floor(width / 3)), perBin = frames.length / bins;
@@ -48,13 +51,13 @@ function drawOverview() {
     const members = frames.slice(Math.floor(bin * perBin), Math.max(Math.floor((bin + 1) * perBin), Math.floor(bin * perBin) + 1));
     const span = Math.max(...members.map((f) => f.end - f.begin));
     const worst = members.map((f) => f.worst).sort((a, b) => (rank[b] || 0) - (rank[a] || 0))[0];
-    const tall = Math.max(span / longest * (height - 6), 3), wide = width / bins;
+    const tall = Math.max(span / longest * (height - 6), 3), wide = overviewWidth(width) / bins;
     const bar = shape('rect', { class: 'bar ' + worst, x: bin * wide, y: height - tall, width: Math.max(wide - 1, 1), height: tall });
     bar.append(shape('title', {}, `frame ${members[0].number}: ${time(span)}`));
     svg.append(bar);
   }
-  svg.append(shape('rect', { class: 'here', x: view.place / frames.length * width, y: 1, height: height - 2,
-    width: Math.max(Math.min(view.count, frames.length) / frames.length * width - 1, 4) }));
+  svg.append(shape('rect', { class: 'here', x: view.place / frames.length * overviewWidth(width), y: 1, height: height - 2,
+    width: Math.max(Math.min(view.count, frames.length) / frames.length * overviewWidth(width) - 1, 4) }));
 }
 
 function drawFindings() {
@@ -110,7 +113,7 @@ function drawReports() {
 function enteredBy(part) {
   if (part.entered < 0) return 'its own work';
   const event = events[part.entered];
-  return event.kind === 'wait' ? `wait for ${event.object} \u2265 ${event.value}` : 'its submission';
+  return part.waited ? `wait for ${event.object} \u2265 ${event.value}` : 'its submission';
 }
 
 function drawLegend() {
@@ -212,7 +215,7 @@ function listen() {
   });
   byId('overview').addEventListener('click', (event) => {
     const box = byId('overview').getBoundingClientRect();
-    show(Math.floor((event.clientX - box.left) / box.width * frames.length));
+    show(Math.floor((event.clientX - box.left) / overviewWidth(box.width) * frames.length));
   });
   document.addEventListener('keydown', (event) => {
     if (event.target.matches('input, select')) return;

@@ -45,12 +45,12 @@ function ticks(begin, end, most) {
   return list;
 }
 
-// Time between an actor's events of one frame that no wait took.
+// Time between an actor's events of one frame in which it neither waited nor had nothing to do.
 function busyParts(frame) {
   const cursor = new Map(), parts = [];
   for (const event of frame.events) {
     const from = cursor.get(event.actor);
-    if (from !== undefined && event.begin > from) parts.push([event.actor, from, event.begin]);
+    if (from !== undefined && event.begin > from && !event.idleBefore) parts.push([event.actor, from, event.begin]);
     if (event.kind !== 'wait' && event.end > event.begin) parts.push([event.actor, event.begin, event.end]);
     cursor.set(event.actor, Math.max(from || 0, event.end));
   }
@@ -101,7 +101,7 @@ function drawTimeline() {
   }
   for (const frame of shownFrames()) drawPath(frame, { add, bar, x, y, inside });
 
-  const labelEnd = new Map();  // where the last label of a lane's row ends
+  const labelEnd = new Map(), glyphEnd = new Map(), placed = new Map();  // where the last label and glyph of a lane's row end
   for (const event of shownEvents()) {
     if (!laneOf.has(event.actor) || event.kind === 'wait-begin') continue;
     const last = event.never ? view.end : event.end;
@@ -111,7 +111,11 @@ function drawTimeline() {
         { 'data-event': event.index }));
     }
     if (event.kind === 'wait' && event.signal >= 0) drawArrow(events[event.signal], event, { add, x, y, laneOf });
-    const row = isOrder(event.kind) ? kOrderRow : kAccessRow, at = x(instant(event));
+    const row = isOrder(event.kind) ? kOrderRow : kAccessRow, line = event.actor + ':' + row;
+    const exact = x(instant(event)), taken = glyphEnd.get(line) ?? -Infinity;
+    // What happens at once stands side by side, a little late, rather than on top of each other.
+    const at = exact < taken && taken - exact < 40 ? taken : exact;
+    glyphEnd.set(line, at + 12);
     if (row === kAccessRow && event.end > event.begin) {
       add('bars', bar('busy', event.actor, event.begin, event.end, row, 6, { 'data-event': event.index }));
     }
@@ -119,8 +123,11 @@ function drawTimeline() {
     const made = glyph(event.kind, at, y(event.actor, row));
     made.setAttribute('data-event', event.index);
     add('glyphs', made);
+    placed.set(event.index, [at, y(event.actor, row)]);
     drawLabel(event, at, y(event.actor, row), labelEnd, add);
-    for (const finding of event.findings) drawMark(finding, event, at, y(event.actor, row), { add, x, y, laneOf });
+  }
+  for (const [index] of placed) {
+    for (const finding of events[index].findings) drawMark(finding, placed, add);
   }
   svg.append(parts.back, parts.bars, parts.arrows, parts.glyphs, parts.marks, names(lanes, height));
   byId('window').textContent = budget < 0
@@ -148,7 +155,7 @@ function names(lanes, height) {
   const group = shape('g', { class: 'lane' });
   group.append(shape('rect', { class: 'gutter', x: 0, y: 0, width: kGutter - 12, height }));
   lanes.forEach((actor, row) => {
-    const name = actors[actor].name, short = name.length > 19 ? name.slice(0, 18) + '\u2026' : name;
+    const name = actors[actor].name, short = name.length > 17 ? name.slice(0, 16) + '\u2026' : name;
     const title = shape('text', { class: 'name', x: 10, y: kTop + row * kLane + 30 }, short);
     title.append(shape('title', {}, name));
     group.append(title, shape('text', { class: 'kind', x: 10, y: kTop + row * kLane + 46 }, actors[actor].kind));
@@ -180,7 +187,7 @@ function drawArrow(signal, wait, { add, x, y, laneOf }) {
 }
 
 function drawLabel(event, at, y, labelEnd, add) {
-  if (event.kind === 'frame' || event.object === '') return;
+  if (event.kind === 'frame' || event.kind === 'wait-begin' || event.object === '') return;
   const text = event.kind === 'submit' ? 'to ' + event.object : event.object + (event.value ? ' ' + event.value : '');
   const short = text.length > 22 ? text.slice(0, 21) + '\u2026' : text, key = event.actor + ':' + y;
   if (at + 8 < (labelEnd.get(key) ?? -Infinity)) return;
@@ -188,13 +195,13 @@ function drawLabel(event, at, y, labelEnd, add) {
   add('glyphs', shape('text', { class: 'label', x: at + 8, y: y - 5 }, short));
 }
 
-function drawMark(finding, event, at, here, { add, x, y, laneOf }) {
-  const lit = finding.index === view.lit ? ' lit' : '';
-  const first = finding.first >= 0 ? events[finding.first] : null;
-  if (first && first !== event && laneOf.has(first.actor) && finding.severity !== 'info') {
-    const x1 = x(instant(first)), y1 = y(first.actor, isOrder(first.kind) ? kOrderRow : kAccessRow);
-    add('marks', shape('path', { class: 'missing', d: `M${x1},${y1} L${at},${here}`, 'data-finding': finding.index }));
+// A ring where the finding showed, and the missing order as a line from where it should have come from.
+function drawMark(finding, placed, add) {
+  const [x2, y2] = placed.get(finding.second), lit = finding.index === view.lit ? ' lit' : '';
+  const first = placed.get(finding.first);
+  if (first && finding.first !== finding.second && finding.severity !== 'info') {
+    add('marks', shape('path', { class: 'missing', d: `M${first[0]},${first[1]} L${x2},${y2}`, 'data-finding': finding.index }));
   }
-  add('marks', shape('circle', { class: 'mark ' + finding.severity + lit, cx: at, cy: here, r: 10,
+  add('marks', shape('circle', { class: 'mark ' + finding.severity + lit, cx: x2, cy: y2, r: 10,
     'data-finding': finding.index }));
 }

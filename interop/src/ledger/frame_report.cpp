@@ -87,6 +87,12 @@ void addOverlap(const Recording& recording, const std::vector<Step>& steps, cons
         if (!busy.seen) {
             busy = {step.begin_ns, step.begin_ns, 0, true};
         }
+        const bool submitted = step.cause != kNone && recording.events[step.cause].event.kind == EventKind::Submit;
+        if (submitted) {
+            // A stream with nothing to do until then.
+            close(busy, busy.until);
+            busy.since = step.begin_ns;
+        }
         if (recording.events[i].event.kind == EventKind::Wait) {
             close(busy, step.begin_ns);
             busy.since = step.end_ns;
