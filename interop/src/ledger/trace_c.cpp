@@ -224,8 +224,8 @@ uint64_t sluice_trace_wait_begin(SluiceTraceLog* log, uint32_t actor, uint32_t s
 }
 void sluice_trace_wait_end(SluiceTraceLog* log, uint32_t actor, uint32_t sync, uint64_t value, uint64_t began_ns,
                            int timed_out) {
-    putObject(log, EventKind::Wait, actor, sync, value, 0,
-              static_cast<std::uint16_t>(timed_out != 0 ? kTimedOut : 0), began_ns);
+    putObject(log, EventKind::Wait, actor, sync, value, 0, static_cast<std::uint16_t>(timed_out != 0 ? kTimedOut : 0),
+              began_ns);
 }
 void sluice_trace_submit(SluiceTraceLog* log, uint32_t thread, uint32_t stream, uint64_t number) {
     if (isActor(stream)) {
