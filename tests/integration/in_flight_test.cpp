@@ -4,6 +4,7 @@
 #include <epoxy/gl.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -20,7 +21,8 @@ namespace {
 constexpr std::uint32_t kWidth = 67;
 constexpr std::uint32_t kHeight = 43;
 constexpr std::uint64_t kFrames = 64;
-constexpr int kTries = 6;
+constexpr int kTries = 20;
+constexpr int kMostLayers = 432;  // more only makes a try longer
 
 /// A bad frame is stale if every texel is that of an earlier frame.
 struct Tally {
@@ -96,7 +98,7 @@ class InFlightTest : public ShimTest {
     void lose(SluiceTimelineKind timeline, std::uint32_t flags, bool drop_host_wait, const char* what) {
         Tally tally;
         int layers = 16;
-        for (int i = 0; i < kTries && tally.bad == 0; ++i, layers *= 3) {
+        for (int i = 0; i < kTries && tally.bad == 0; ++i, layers = std::min(3 * layers, kMostLayers)) {
             host_.reset();
             control_->drop_host_wait = false;
             ASSERT_NO_FATAL_FAILURE(start(timeline, 2));
