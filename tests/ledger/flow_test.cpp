@@ -146,51 +146,40 @@ TEST(LedgerFlow, ForcedSignalOrdersNothingOfTheRendererThatDied) {
     EXPECT_THAT(kinds(s.ledger), ElementsAre(FindingKind::ReadAfterWrite));
 }
 
-TEST(LedgerFlow, RepetitionsAreCountedNotListed) {
-    Script s;
-    for (std::uint64_t k = 1; k <= 100; ++k) {
-        s.event(EventKind::Frame, kGl, kNoObject, k);
-        s.event(EventKind::Frame, kQueue, kNoObject, k);
-        s.write(kGl, kColour, k);
-        s.signal(kGl, kHost, k);
-        s.read(kQueue, kColour, k);  // its wait was forgotten
-        s.signal(kQueue, kDone, k);
-        s.wait(kGl, kDone, k);
-    }
-    s.ledger.finish(End::Closed);
-    ASSERT_THAT(kinds(s.ledger), ElementsAre(FindingKind::ReadAfterWrite)) << tell(s.ledger);
-    const Finding& finding = s.ledger.findings()[0];
-    EXPECT_EQ(finding.count, 100U);
-    EXPECT_EQ(finding.frame, 1U);
-    EXPECT_EQ(finding.edge, "gl:signal(host-to-renderer, 1) -> queue:wait(host-to-renderer, 1)");
-    EXPECT_EQ(
-        finding.sentence,
-        "queue reads colour in frame 1 (version 1), but nothing orders that after the write of version 1 by gl in "
-        "frame 1.");
-}
-
-TEST(LedgerFlow, FurtherFindingsAreCounted) {
-    LedgerOptions options;
-    options.max_findings = 1;
-    Script s(options);
-    s.write(kGl, kColour, 1);
-    s.write(kGl, kDepth, 1);
-    s.read(kQueue, kColour);
-    s.read(kQueue, kDepth);
-    EXPECT_EQ(s.ledger.findings().size(), 1U);
-    EXPECT_EQ(s.ledger.findingsDropped(), 1U);
-}
-
-TEST(LedgerFlow, ARaceIsNotToldAgainByThoseWhoComeAfterIt) {
+TEST(LedgerFlow, TimelineWaitInheritsLowerSignalsOfOthers) {
     Script s;
     s.write(kGl, kColour, 1);
-    s.read(kQueue, kColour, 1);  // the race
+    s.signal(kGl, kHost, 1);
+    s.signal(kQueue, kHost, 2);  // in the order of the log, nothing more
+    s.wait(kQueue2, kHost, 2);
+    s.read(kQueue2, kColour, 1);
+    EXPECT_EQ(tell(s.ledger), "");
+}
+
+TEST(LedgerFlow, OverWaitIsSeenThroughAHeldStream) {
+    Script s;
+    s.submit(kEngine, kQueue);
+    s.write(kQueue, kColour, 1);
     s.signal(kQueue, kDone, 1);
-    s.wait(kQueue2, kDone, 1);
-    s.read(kQueue2, kColour, 1);  // ordered after the racing read: the same missing edge
-    s.read(kEngine, kColour, 1);  // ordered after nothing: another one
-    EXPECT_THAT(kinds(s.ledger), ElementsAre(FindingKind::ReadAfterWrite, FindingKind::ReadAfterWrite));
-    EXPECT_EQ(s.ledger.findings()[1].second.actor, kEngine);
+    s.wait(kQueue2, kHost, 1);
+    s.wait(kEngine, kDone, 1, 3 * kMs);
+    s.submit(kEngine, kQueue2);
+    s.read(kQueue2, kColour, 1);
+    s.signal(kGl, kHost, 1);
+    s.ledger.finish(End::Closed);
+    EXPECT_THAT(kinds(s.ledger), ElementsAre(FindingKind::OverWait)) << tell(s.ledger);
+}
+
+TEST(LedgerFlow, ImportMayStandBeforeItsExportInTheLog) {
+    Script s;
+    MemoryFacts facts;
+    facts.size = 100;
+    s.ledger.memoryFacts(kColour, facts);
+    s.event(EventKind::Import, kGl, kColour);
+    facts.size = 200;
+    s.ledger.memoryFacts(kColour, facts);
+    s.event(EventKind::Export, kQueue, kColour);
+    EXPECT_THAT(kinds(s.ledger), ElementsAre(FindingKind::ImportSize)) << tell(s.ledger);
 }
 
 TEST(LedgerFlow, NumbersUsedAgainAreNewObjects) {

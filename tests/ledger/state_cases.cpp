@@ -32,6 +32,16 @@ void keepsTouching(Script& s, bool after_release) {
     s.read(kGl, kColour, 1);
 }
 
+void releasedTwice(Script& s, bool twice) {
+    s.release(kQueue, kColour, kGeneral, kGeneral);
+    s.signal(kQueue, kDone, 1);
+    s.wait(kQueue2, kDone, 1);
+    if (!twice) {
+        s.acquire(kQueue2, kColour, kGeneral, kGeneral);
+    }
+    s.release(kQueue2, kColour, kGeneral, kGeneral);
+}
+
 void glLists(Script& s, std::uint32_t layout_in_wait) {
     s.write(kQueue, kColour, 1);
     s.release(kQueue, kColour, kGeneral, kReadOnly);
@@ -141,6 +151,8 @@ std::vector<Case> stateCases() {
          [](Script& s) { transfer(s, true, kAttachment); }},
         {FindingKind::OwnershipMismatch, [](Script& s) { keepsTouching(s, true); },
          [](Script& s) { keepsTouching(s, false); }},
+        {FindingKind::OwnershipMismatch, [](Script& s) { releasedTwice(s, true); },
+         [](Script& s) { releasedTwice(s, false); }},
         import(FindingKind::ImportUuid, [](MemoryFacts& other) { other.device_uuid[3] = 8; }),
         import(FindingKind::ImportUuid, [](MemoryFacts& other) { other.driver_uuid[0] = 8; }),
         import(FindingKind::ImportDedicated, [](MemoryFacts& other) { other.dedicated = 0; }),

@@ -91,7 +91,6 @@ void Ledger::State::gift(const Actor& from, std::uint64_t candidate, Actor& stre
     stream.gift->thread = from.slot;
     stream.gift->candidate = candidate;
     stream.gift->without = stream.know.order();
-    stream.gift->without.join(wait->before);
     stream.gift->without.raise(from.now());
 }
 

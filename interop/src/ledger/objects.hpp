@@ -152,7 +152,7 @@ struct Candidate {
     Slot stream = kNoSlot;
 };
 
-/// What a stream owes to a thread's wait: `without` is what it would know had the thread not waited.
+/// What a stream owes to a thread's wait: `without` is what it would know had the thread not submitted after it.
 struct Gift {
     Slot thread = kNoSlot;
     std::uint64_t candidate = 0;
