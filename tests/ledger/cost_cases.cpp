@@ -56,6 +56,24 @@ void cannotWait(Script& s, ActorId stream) {
     s.read(stream, kColour, 1);
 }
 
+/// What one stream could have waited for, another could not; or the stream waits itself, and the thread paces its
+/// frames.
+void waitsForBoth(Script& s, bool for_gl, bool queue_waits) {
+    s.submit(kEngine, kQueue);
+    s.write(kQueue, kColour, 1);
+    s.signal(kQueue, kDone, 1);
+    s.wait(kEngine, kDone, 1, 3 * kMs);
+    s.submit(kEngine, kQueue2);
+    if (queue_waits) {
+        s.wait(kQueue2, kDone, 1);
+    }
+    s.read(kQueue2, kColour, 1);
+    if (for_gl) {
+        s.submit(kEngine, kGl);
+        s.read(kGl, kColour, 1);
+    }
+}
+
 }  // namespace
 
 std::vector<Case> costCases() {
@@ -68,6 +86,10 @@ std::vector<Case> costCases() {
          [](Script& s) { standsStill(s, false, false); }},
         {FindingKind::OverWait, [](Script& s) { standsStill(s, true, false); },
          [](Script& s) { standsStill(s, true, true); }},
+        {FindingKind::OverWait, [](Script& s) { waitsForBoth(s, false, false); },
+         [](Script& s) { waitsForBoth(s, true, false); }},
+        {FindingKind::OverWait, [](Script& s) { waitsForBoth(s, false, false); },
+         [](Script& s) { waitsForBoth(s, false, true); }},
         {FindingKind::OverWait, [](Script& s) { cannotWait(s, kQueue2); }, [](Script& s) { cannotWait(s, kGl); }},
     };
 }

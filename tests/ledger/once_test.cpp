@@ -72,6 +72,18 @@ TEST(LedgerOnce, AnUnlistedResourceIsToldToNobodyElse) {
     EXPECT_EQ(s.ledger.findings()[0].count, 1U);
 }
 
+TEST(LedgerOnce, VictimsOfACircleAreNotItsMembers) {
+    Script s;
+    s.wait(kQueue, kHost, 1);
+    s.signal(kQueue, kDone, 1);
+    s.wait(kQueue2, kDone, 1);
+    s.signal(kQueue2, kHost, 1);
+    s.wait(kGl, kHost, 1);
+    s.ledger.finish(End::Closed);
+    ASSERT_THAT(kinds(s.ledger), ElementsAre(FindingKind::WaitCycle)) << tell(s.ledger);
+    EXPECT_NE(s.ledger.findings()[0].second.actor, kGl);
+}
+
 TEST(LedgerOnce, ARaceOnAnOwnedResourceSaysNothingOfOwnersAndLayouts) {
     Script s;
     s.acquire(kQueue, kColour, 1, 2);
@@ -88,6 +100,8 @@ TEST(LedgerOnce, ARaceWithTheOwnerIsNotOneOfOwnershipBesides) {
     s.acquire(kQueue, kColour, 1, 1);
     s.write(kQueue, kColour, 1);
     s.read(kGl, kColour, 1);
+    s.signal(kQueue, kDone, 1);
+    s.wait(kGl, kDone, 1);
     s.read(kGl, kColour, 1);
     EXPECT_THAT(kinds(s.ledger), ElementsAre(FindingKind::ReadAfterWrite)) << tell(s.ledger);
 }
