@@ -95,6 +95,7 @@ TEST(LedgerLists, ForgettingKeepsASignalOfOneWhoSawLess) {
         s.write(kQueue, kColour, 1);
         s.signal(kQueue, kListed, 1);
         s.signal(kQueue, kDone, 1);
+        s.signal(kQueue, kDone, 2);
         s.names(kGl, kDepth);
         s.wait(kGl, kListed, 1);  // ordered after the write, without seeing it
         s.signal(kGl, kHost, 1);
