@@ -90,6 +90,14 @@ TEST(LedgerLog, NamesAreCutBetweenTwoCharacters) {
     EXPECT_EQ(lines.front(), "actor 0 process " + name.substr(0, 1023));
 }
 
+TEST(LedgerLog, ControlCharactersOfNamesDoNotReachATerminal) {
+    const auto lines = told(written([](LogWriter& log) {
+        log.declareActor(0, ledger::ActorKind::Process, "a\x1b[2J\nb");
+        log.declareResource(0, "\xC3\xA9\x7F", 0, 0);
+    }));
+    EXPECT_THAT(lines, ElementsAre("actor 0 process a?[2J?b", "resource 0 \xC3\xA9? 0 0", "end: closed"));
+}
+
 TEST(LedgerLog, ManyThreadsWriteOneLog) {
     constexpr std::uint64_t kEach = 2000;
     const Bytes bytes = written([](LogWriter& log) {

@@ -1,5 +1,5 @@
 // The drawing: a lane per actor, time to the right.
-const kGutter = 150, kLane = 74, kTop = 34, kRight = 14;
+const kGutter = 150, kLane = 74, kTop = 34, kRight = 60;
 const kOrderRow = 26, kAccessRow = 48, kPathRow = 66;  // heights within a lane
 const kMostShapes = 6000;
 

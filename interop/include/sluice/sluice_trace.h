@@ -26,7 +26,9 @@
  * and the id SLUICE_TRACE_NONE make any call do nothing, so an engine need not check what open or a declaration
  * returned. When a write fails (disk full), later records are dropped and counted, and sluice_trace_status says so.
  * Cost: a mutex and a copy of 48 bytes per event.
- */
+ *
+ * This file is C; the C++ modernisers have nothing to say about it.
+ * NOLINTBEGIN(modernize-*,performance-enum-size,bugprone-macro-parentheses) */
 #ifndef SLUICE_TRACE_H
 #define SLUICE_TRACE_H
 
@@ -161,4 +163,5 @@ SLUICE_TRACE_API void sluice_trace_actor_end(SluiceTraceLog* log, uint32_t actor
 }
 #endif
 
+/* NOLINTEND(modernize-*,performance-enum-size,bugprone-macro-parentheses) */
 #endif /* SLUICE_TRACE_H */

@@ -24,9 +24,13 @@ using Bytes = std::span<const std::byte>;
 /// Fills `out` as far as the source reaches and returns how much; nothing after an error of the system.
 using Source = std::function<std::optional<std::size_t>(std::span<std::byte> out)>;
 
-std::string_view nameIn(Bytes chunk, std::size_t from) {
-    const Bytes name = chunk.subspan(from);
-    return {reinterpret_cast<const char*>(name.data()), name.size()};
+/// Without control characters: names end up on terminals, where a stranger's escape sequences have no business.
+std::string nameIn(Bytes chunk, std::size_t from) {
+    const Bytes bytes = chunk.subspan(from);
+    std::string name(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+    std::ranges::replace_if(
+        name, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; }, '?');
+    return name;
 }
 
 class Reader {

@@ -71,7 +71,8 @@ struct LogSummary {
 /// absurd size, an unknown kind, an id out of bounds, anything after the close) name the file, the offset, the expected
 /// and the found. A log that ends in the middle of a chunk is read up to there and is Truncated. Events get their place
 /// in the log as their sequence, whatever the file says. Bounds: actor ids below 1,024 (a clock has an entry per
-/// actor), sync and resource ids below 2^24, names of at most 1,024 bytes.
+/// actor), sync and resource ids below 2^24, names of at most 1,024 bytes, whose
+/// control characters become '?'.
 [[nodiscard]] Result<LogSummary> readLog(const std::string& path, const LogSink& sink);
 /// The same from memory; `name` stands for the file in errors.
 [[nodiscard]] Result<LogSummary> readLog(std::span<const std::byte> bytes, const std::string& name,
