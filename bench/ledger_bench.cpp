@@ -46,7 +46,7 @@ void ring(benchmark::State& state) {
     Ledger ledger;
     declare(ledger);
     std::uint64_t k = 0;
-    for (auto _ : state) {
+    while (state.KeepRunning()) {
         frame(ledger, ++k);
     }
     state.SetItemsProcessed(state.iterations() * kEventsPerFrame);
@@ -60,7 +60,7 @@ void ringHeld(benchmark::State& state) {
     Ledger ledger;
     declare(ledger);
     std::uint64_t k = 0;
-    for (auto _ : state) {
+    while (state.KeepRunning()) {
         ++k;
         const auto set = static_cast<ObjectId>(k % 3);
         tell(ledger, EventKind::Wait, kQueue, kHost, 2 * k - 1);

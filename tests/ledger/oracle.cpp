@@ -145,8 +145,9 @@ OracleVerdict judge(const Program& program) {
     std::vector<std::size_t> next(program.ops.size(), 0);
     for (bool moved = true; moved;) {
         moved = false;
-        for (ActorId actor = 0; actor < next.size(); ++actor) {
-            while (next[actor] < program.ops[actor].size() && execution.run(actor, program.ops[actor][next[actor]])) {
+        for (std::size_t actor = 0; actor < next.size(); ++actor) {
+            while (next[actor] < program.ops[actor].size() &&
+                   execution.run(static_cast<ActorId>(actor), program.ops[actor][next[actor]])) {
                 ++next[actor];
                 moved = true;
             }
