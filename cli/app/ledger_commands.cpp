@@ -7,7 +7,7 @@ namespace sluice::cli {
 
 void addLedgerCommands(CLI::App& app, LedgerCommands& commands, std::function<int()>& run) {
     DiagnoseOptions& o = commands.diagnose;
-    CLI::App& c = *app.add_subcommand("diagnose", "Say what is wrong with the order of events in a ledger log");
+    CLI::App& c = *app.add_subcommand("diagnose", "Judge the order of events in a ledger log");
     c.add_option("LOG", o.log, "ledger log, as sluice_trace.h writes it")->required()->type_name("");
     c.add_option("--frame", o.frame, "frame whose critical path is printed instead of\nthe longest")->type_name("N");
     c.add_flag("--all", o.all, "every finding, not three of each kind");
