@@ -126,6 +126,17 @@ void addRender(Line& line) {
         ->type_name("VIEW");
     c.add_flag("--no-fluid", o.no_fluid, "the host's frame alone");
     c.add_flag("--validation", o.validation, "run under the Vulkan validation layer; exit\ncode 3 if it speaks");
+    c.add_flag("--ledger", o.ledger,
+               "check the order of every signal, wait and access\nwhile it happens, and report findings");
+    c.add_option("--ledger-log", o.ledger_log, "the same, and write the log for sluice diagnose")->type_name("FILE");
+    c.add_option_function<std::string>(
+         "--deadline", into(o.deadline_s, parseDeadline),
+         "longest wait for the renderer before the frame\ngoes on without fluid; 10 if not given")
+        ->type_name("SECONDS");
+    c.add_option_function<std::string>(
+         "--fault", into(o.fault, parseFault),
+         "for tests: make a mistake in the order of frame\nFRAME (docs/cli.md has the kinds)")
+        ->type_name("KIND@FRAME");
     addVerbosity(c, line);
     c.footer(std::string("A particle file may be .pos, .ply or .bgeo. Every input is checked before the\n"
                          "first file is written, and files appear whole or not at all.\n\n") +

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "sluice/host_gl/fault_plan.hpp"
 #include "sluice/plugin.h"
 #include "sluice/scene/scene.hpp"
 
@@ -22,6 +23,10 @@ struct RenderOptions {
     SluiceFormat depth_format = SLUICE_FORMAT_NONE;
     std::uint32_t image_sets = 2;
     std::optional<std::uint32_t> view;  ///< SluiceView
+    bool ledger = false;
+    std::string ledger_log;  ///< implies ledger
+    std::optional<host::FaultPlan> fault;
+    double deadline_s = 10.0;  ///< of a CPU wait for the renderer
 };
 
 struct ProbeOptions {

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -66,6 +67,52 @@ Result<float> parseRadius(std::string_view text) {
         return badValue("--radius", "metres above 0", text);
     }
     return radius;
+}
+
+Result<host::FaultPlan> parseFault(std::string_view text) {
+    const std::size_t at = text.find('@');
+    const std::size_t equals = text.find('=', at == std::string_view::npos ? 0 : at);
+    const std::string_view what = text.substr(0, at);
+    const std::size_t slash = what.find('/');
+    const std::string_view name = what.substr(0, slash);
+    const auto* kind = std::find_if(host::kFaultNames.begin(), host::kFaultNames.end(),
+                                    [&](const auto& one) { return one.first == name; });
+    const std::int64_t frame =
+        at == std::string_view::npos
+            ? kNotWhole
+            : whole(text.substr(at + 1, equals == std::string_view::npos ? equals : equals - at - 1));
+    const std::int64_t value = equals == std::string_view::npos ? 0 : whole(text.substr(equals + 1));
+    const std::string_view side = slash == std::string_view::npos ? std::string_view{} : what.substr(slash + 1);
+    const bool side_known = slash == std::string_view::npos || side == "to-renderer" || side == "to-host";
+    if (kind == host::kFaultNames.end() || frame < 1 || value < 0 || !side_known) {
+        std::string kinds;
+        for (const auto& [one, ignored] : host::kFaultNames) {
+            kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", one);
+        }
+        return badValue("--fault", fmt::format("KIND[/to-renderer|/to-host]@FRAME[=VALUE], KIND one of {}", kinds),
+                        text);
+    }
+    host::FaultPlan plan;
+    plan.kind = kind->second;
+    plan.frame = static_cast<std::uint64_t>(frame);
+    plan.value = static_cast<std::uint64_t>(value);
+    const bool about_waits = plan.kind == host::FaultKind::SkipWait || plan.kind == host::FaultKind::EarlyReuse;
+    plan.direction =
+        side == "to-host" || (side.empty() && about_waits) ? SLUICE_RENDERER_TO_HOST : SLUICE_HOST_TO_RENDERER;
+    if (!host::possible(plan.kind, plan.direction)) {
+        return badValue("--fault", fmt::format("{} in the other direction", name), text);
+    }
+    return plan;
+}
+
+Result<double> parseDeadline(std::string_view text) {
+    double seconds = 0.0;
+    const char* end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, seconds);
+    if (failure != std::errc{} || stop != end || !(seconds > 0.0 && seconds <= 3600.0)) {
+        return badValue("--deadline", "seconds above 0, at most 3600", text);
+    }
+    return seconds;
 }
 
 }  // namespace sluice::cli

@@ -4,6 +4,7 @@
 
 #include <string_view>
 
+#include "sluice/host_gl/fault_plan.hpp"
 #include "sluice/result.hpp"
 #include "sluice/scene/scene.hpp"
 
@@ -17,6 +18,11 @@ namespace sluice::cli {
 [[nodiscard]] Result<std::uint32_t> parseImageSets(std::string_view text);
 /// Metres, above 0.
 [[nodiscard]] Result<float> parseRadius(std::string_view text);
+
+/// KIND@FRAME, KIND/to-renderer@FRAME or KIND/to-host@FRAME, with =VALUE behind it where the kind has one.
+[[nodiscard]] Result<host::FaultPlan> parseFault(std::string_view text);
+/// Seconds, above 0 and at most 3600.
+[[nodiscard]] Result<double> parseDeadline(std::string_view text);
 
 /// What all of them answer to a wrong text.
 [[nodiscard]] Error badValue(std::string_view what, std::string_view expected, std::string_view found);

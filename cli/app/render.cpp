@@ -186,9 +186,27 @@ int renderAll(Run& run) {
     }
 }
 
+/// The ledger's verdict, once nobody can signal any more.
+int finishLedger(Run& run, int code) {
+    ledger::LiveLedger* ledger = run.session.ledger.get();
+    if (ledger == nullptr) {
+        return code;
+    }
+    if (const Status status = ledger->finish(ledger::End::Closed); !status) {
+        logError(status.error());
+        code = kExitInternal;
+    } else if (!run.options.ledger_log.empty()) {
+        run.summary.files.push_back(run.options.ledger_log);
+    }
+    run.summary.ledger =
+        LedgerSummary{ledger->eventsSeen(), ledger->memoryBytes(), ledger->findingsDropped(), ledger->findings()};
+    return code;
+}
+
 /// The renderer's shut-down belongs to the trace too, so the trace is written after it.
 int finish(Run& run, int code) {
     run.session.fluid.reset();
+    code = finishLedger(run, code);
     std::vector<TraceRecord> last = run.session.trace->drain();
     RunSummary& s = run.summary;
     s.validation_messages = std::max(s.validation_messages, run.session.validation_messages->load());
@@ -244,6 +262,10 @@ int renderChecked(const RenderOptions& options, RenderInputs inputs) {
     Result<RenderSession> session = createSession(inputs);
     if (!session) {
         logError(session.error());
+        return kExitInternal;
+    }
+    if (const Status status = startLedger(session.value(), options); !status) {
+        logError(status.error());
         return kExitInternal;
     }
     Run run{options, std::move(inputs), std::move(session).value(), {}, {}, {}, {}};

@@ -16,6 +16,7 @@ namespace {
 constexpr const char* kPicture = "the picture (-o)";
 constexpr const char* kLayers = "the layers (--layers)";
 constexpr const char* kTrace = "the trace (--trace)";
+constexpr const char* kLedgerLog = "the ledger's log (--ledger-log)";
 
 FileRoles inputRoles(const RenderOptions& options, const RenderInputs& inputs) {
     FileRoles roles;
@@ -73,6 +74,11 @@ Status checkRoles(const RenderOptions& options, const RenderInputs& inputs) {
             return status;
         }
     }
+    if (!options.ledger_log.empty()) {
+        if (Status status = roles.addOutput(kLedgerLog, options.ledger_log); !status) {
+            return status;
+        }
+    }
     // Pictures and layers differ from each other by frame number and ending (checkOutputs), so they need not be
     // remembered, however many frames there are.
     return forEachFrameFile(options, inputs.frames, [&roles](const char* role, const std::filesystem::path& path) {
@@ -81,8 +87,11 @@ Status checkRoles(const RenderOptions& options, const RenderInputs& inputs) {
 }
 
 Status prepareOutputs(OutputFolders& folders, const RenderOptions& options, scene::FrameRange frames) {
-    if (!options.trace.empty()) {
-        if (Status status = folders.prepare(options.trace); !status) {
+    for (const std::string* file : {&options.trace, &options.ledger_log}) {
+        if (file->empty()) {
+            continue;
+        }
+        if (Status status = folders.prepare(*file); !status) {
             return status;
         }
     }

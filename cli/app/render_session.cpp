@@ -100,9 +100,25 @@ Result<RenderSession> createSession(const RenderInputs& inputs) {
                          std::move(screen).value(),
                          std::move(engine).value(),
                          std::move(messages),
+                         nullptr,
                          std::nullopt,
                          nullptr,
                          {}};
+}
+
+Status startLedger(RenderSession& session, const RenderOptions& options) {
+    std::unique_ptr<ledger::LogWriter> log;
+    if (!options.ledger_log.empty()) {
+        Result<std::unique_ptr<ledger::LogWriter>> created = ledger::LogWriter::create(options.ledger_log);
+        if (!created) {
+            return created.error();
+        }
+        log = std::move(created).value();
+    }
+    if (options.ledger || log) {
+        session.ledger = std::make_unique<ledger::LiveLedger>(ledger::LedgerOptions{}, std::move(log));
+    }
+    return {};
 }
 
 Status startFluid(RenderSession& session, const RenderInputs& inputs, const RenderOptions& options) {
@@ -120,6 +136,9 @@ Status startFluid(RenderSession& session, const RenderInputs& inputs, const Rend
     config.host_depth = options.depth_format;
     config.validation = options.validation;
     config.trace = session.trace.get();
+    config.ledger = session.ledger.get();
+    config.fault = options.fault;
+    config.wait_timeout_ns = static_cast<std::uint64_t>(options.deadline_s * 1e9);
     config.log = [seen = session.validation_messages.get()](SluiceLogLevel level, std::string_view message) {
         if (message.starts_with(kValidationPrefix)) {
             // Whoever asked for validation wants to see every message, with --quiet too.

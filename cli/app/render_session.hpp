@@ -18,6 +18,7 @@
 #include "sluice/host_gl/fluid_host.hpp"
 #include "sluice/host_gl/plugin_library.hpp"
 #include "sluice/host_gl/screen.hpp"
+#include "sluice/ledger/live.hpp"
 #include "sluice/negotiate.hpp"
 #include "sluice/trace.hpp"
 
@@ -30,6 +31,7 @@ struct RenderSession {
     host::Screen screen;
     host::LegacyEngine engine;
     std::unique_ptr<std::atomic<std::uint32_t>> validation_messages;  ///< logged so far; any thread counts
+    std::unique_ptr<ledger::LiveLedger> ledger;                       ///< null: off
     std::optional<host::PluginLibrary> library;
     std::unique_ptr<host::FluidHost> fluid;  ///< null: frames without fluid
     std::string timeline_reason;             ///< why the timeline in use was chosen
@@ -37,6 +39,9 @@ struct RenderSession {
 
 /// Context, screen and engine. The context is current from here on.
 [[nodiscard]] Result<RenderSession> createSession(const RenderInputs& inputs);
+
+/// Begins the ledger, and its log, if they were asked for.
+[[nodiscard]] Status startLedger(RenderSession& session, const RenderOptions& options);
 
 /// Loads the plugin and creates the renderer. On failure the session renders without fluid.
 [[nodiscard]] Status startFluid(RenderSession& session, const RenderInputs& inputs, const RenderOptions& options);

@@ -92,6 +92,48 @@ Json passesJson(const std::vector<PassRow>& passes) {
     return list;
 }
 
+std::string ledgerText(const LedgerSummary& s) {
+    if (s.findings.empty()) {
+        return fmt::format("ledger: {} events, no finding\n", formatCount(s.events));
+    }
+    std::string text =
+        fmt::format("ledger: {} events, {}\n", formatCount(s.events),
+                    s.findings.size() == 1 ? "1 finding" : fmt::format("{} findings", s.findings.size()));
+    for (const ledger::Finding& finding : s.findings) {
+        const ledger::FindingInfo& info = ledger::findingInfo(finding.kind);
+        text += fmt::format("  {} {}{}: {} {}\n", ledger::toString(info.severity), info.id,
+                            finding.count > 1 ? fmt::format(" (seen {} times)", finding.count) : std::string(),
+                            finding.sentence, finding.remedy);
+        for (const std::string& line : finding.chain) {
+            text += fmt::format("    {}\n", line);
+        }
+    }
+    if (s.dropped > 0) {
+        text += fmt::format("  and {} more\n", s.dropped);
+    }
+    return text + "  sluice explain-finding ID tells more\n";
+}
+
+Json ledgerJson(const std::optional<LedgerSummary>& s) {
+    if (!s) {
+        return nullptr;
+    }
+    Json findings = Json::array();
+    for (const ledger::Finding& finding : s->findings) {
+        const ledger::FindingInfo& info = ledger::findingInfo(finding.kind);
+        findings.push_back({{"id", info.id},
+                            {"severity", ledger::toString(info.severity)},
+                            {"frame", finding.frame},
+                            {"count", finding.count},
+                            {"cost_ns", finding.cost_ns},
+                            {"sentence", finding.sentence},
+                            {"remedy", finding.remedy},
+                            {"edge", finding.edge},
+                            {"chain", finding.chain}});
+    }
+    return {{"events", s->events}, {"memory_bytes", s->memory_bytes}, {"dropped", s->dropped}, {"findings", findings}};
+}
+
 }  // namespace
 
 std::string summaryText(const RunSummary& s) {
@@ -121,6 +163,9 @@ std::string summaryText(const RunSummary& s) {
                     formatBytes(static_cast<double>(s.uploaded_bytes)));
     if (s.validation_messages > 0) {
         text += fmt::format("validation messages: {}\n", s.validation_messages);
+    }
+    if (s.ledger) {
+        text += ledgerText(*s.ledger);
     }
     if (!s.files.empty()) {
         text += fmt::format("wrote {}", s.files.front());
@@ -158,6 +203,7 @@ nlohmann::ordered_json summaryJson(const RunSummary& s) {
               {"uploaded", s.uploaded_bytes}}},
             {"validation_messages", s.validation_messages},
             {"trace_events_dropped", s.trace_dropped},
+            {"ledger", ledgerJson(s.ledger)},
             {"files", s.files},
             {"problems", s.problems},
             {"exit_code", s.exit_code}};

@@ -4,14 +4,22 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "report/statistics.hpp"
+#include "sluice/ledger/finding.hpp"
 #include "sluice/plugin.h"
 #include "sluice/scene/scene.hpp"
 
 namespace sluice::cli {
+
+/// What the ledger saw.
+struct LedgerSummary {
+    std::uint64_t events = 0, memory_bytes = 0, dropped = 0;
+    std::vector<ledger::Finding> findings;
+};
 
 struct RunSummary {
     std::string scene;
@@ -31,6 +39,7 @@ struct RunSummary {
     std::uint64_t uploaded_bytes = 0, trace_dropped = 0;
     std::uint32_t validation_messages = 0;
     std::vector<std::string> files, problems;
+    std::optional<LedgerSummary> ledger;  ///< empty: it was off
     int exit_code = 0;
 };
 

@@ -51,6 +51,10 @@ Status checkConfig(const FluidHostConfig& config) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "image_sets",
                      fmt::format("expected 1..{}, found {}", SLUICE_MAX_IMAGE_SETS, config.image_sets), ""};
     }
+    if (config.fault && !possible(config.fault->kind, config.fault->direction)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "fault", "that kind is not possible in that direction",
+                     "sluice/host_gl/fault_plan.hpp tells which are"};
+    }
     return checkExtent(config.width, config.height);
 }
 

@@ -10,6 +10,7 @@
 #include "sluice/format.hpp"
 #include "sluice/host_gl/context.hpp"
 #include "timeline/fallback.hpp"
+#include "timeline/faulty.hpp"
 
 namespace sluice::host {
 
@@ -41,17 +42,26 @@ Status Connection::attempt(const PluginLibrary& library, SluiceTimelineKind kind
         return status;
     }
     sets.emplace(info.image_sets, services.images(), config.trace);
+    if (config.ledger != nullptr) {
+        feed.emplace(*config.ledger, static_cast<SluiceTimelineKind>(info.timeline), info.image_sets);
+        feed->imagesMade(sharedRoles());
+        services.tellFeed(&*feed);
+    }
     stage = Stage::Timeline;
     TimelineDeps deps;
     deps.api = &renderer.api();
     deps.renderer = renderer.handle();
     deps.trace = config.trace;
+    deps.feed = feed ? &*feed : nullptr;
     deps.log = [this](SluiceLogLevel level, std::string_view text) { services.log(level, text); };
     Result<std::unique_ptr<HostTimeline>> made = makeHostTimeline(static_cast<SluiceTimelineKind>(info.timeline), deps);
     if (!made) {
         return made.error();
     }
     timeline = std::move(made).value();
+    if (config.fault) {
+        timeline = makeFaultyTimeline(std::move(timeline), *config.fault, deps);
+    }
     stage = Stage::Done;
     return {};
 }
@@ -88,7 +98,17 @@ void Connection::close() {
     // The bridge may still owe values that the renderer's queue waits for, so it drains before the renderer goes.
     timeline.reset();
     renderer = Renderer{};
+    services.tellFeed(nullptr);
+    feed.reset();
     services.images().clear();
+}
+
+std::uint32_t Connection::sharedRoles() const {
+    std::uint32_t roles = 0;
+    for (std::uint32_t role = 0; role < SLUICE_IMAGE_ROLE_COUNT; ++role) {
+        roles |= services.images().texture(role, 0) != 0 ? SLUICE_ROLE_BIT(role) : 0;
+    }
+    return roles;
 }
 
 Status Connection::adoptImages() {
@@ -119,6 +139,10 @@ Status Connection::resize(std::uint32_t width, std::uint32_t height) {
         status = adoptImages();
     }
     sets->reset();
+    if (feed) {
+        feed->imagesDestroyed();
+        feed->imagesMade(status ? sharedRoles() : 0);
+    }
     if (!status) {
         services.images().clear();
     }

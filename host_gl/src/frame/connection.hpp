@@ -18,7 +18,8 @@ namespace sluice::host {
 /// One renderer and the host's end of all that the two share. The renderer knows the address of the services, so it
 /// neither moves nor copies. GL thread.
 struct Connection {
-    explicit Connection(const FluidHostConfig& wanted) : config(wanted), services(wanted.log, wanted.trace) {}
+    explicit Connection(const FluidHostConfig& wanted)
+        : config(wanted), services(wanted.log, wanted.trace, wanted.ledger != nullptr) {}
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
     ~Connection() { close(); }
@@ -35,6 +36,7 @@ struct Connection {
     SluiceRendererInfo info{};
     std::optional<LinearDepthPass> linear;  ///< where HOST_DEPTH is linear
     std::optional<ImageSets> sets;
+    std::optional<ledger::HandOffFeed> feed;  ///< empty without a ledger
     std::unique_ptr<HostTimeline> timeline;
 
   private:
@@ -42,6 +44,8 @@ struct Connection {
     enum class Stage : std::uint8_t { Renderer, Timeline, Done };
     [[nodiscard]] Status attempt(const PluginLibrary& library, SluiceTimelineKind kind, Stage& stage);
     [[nodiscard]] Status adoptImages();
+    /// SLUICE_ROLE_BITs of what every set has.
+    [[nodiscard]] std::uint32_t sharedRoles() const;
 };
 
 }  // namespace sluice::host

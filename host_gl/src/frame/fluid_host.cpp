@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "compositor/capture.hpp"
@@ -68,7 +69,17 @@ class FluidHostImpl final : public FluidHost {
 
   private:
     /// Remembers that the device is lost: from then on no GL wait is recorded for it (docs/protocol.md).
-    void noteLoss(std::int32_t code) { lost_ = lost_ || code == SLUICE_ERROR_DEVICE_LOST; }
+    void noteLoss(std::int32_t code) {
+        if (!lost_ && code == SLUICE_ERROR_DEVICE_LOST) {
+            lost_ = true;
+            if (feed() != nullptr) {
+                feed()->rendererLost();
+            }
+        }
+    }
+    /// nullptr without a ledger.
+    [[nodiscard]] ledger::HandOffFeed* feed() { return link_.feed ? &*link_.feed : nullptr; }
+    void tellSubmit(std::uint64_t frame);
     /// Waits until the GL command stream has ended and records its passes.
     void finishGl();
     [[nodiscard]] Status checkScreen(const Screen& screen, const char* call) const;
@@ -104,7 +115,11 @@ void FluidHostImpl::finishGl() {
                                                       link_.timeline->kind() == SLUICE_TIMELINE_BINARY);
     // A GL wait that was recorded before the device was lost might never end.
     if (!(lost_ && on_gpu)) {
+        const std::uint64_t begin = traceClock(link_.config.trace, feed());
         glFinish();
+        if (feed() != nullptr) {
+            feed()->glFinished(begin);
+        }
     }
     timer_.collect();
 }
@@ -168,11 +183,24 @@ Status FluidHostImpl::callRenderer(const FrameInput& input, std::uint64_t frame)
     call.camera = input.camera;
     call.sky = input.sky;
     call.fluid = input.fluid;
+    const std::optional<FaultPlan>& fault = link_.config.fault;
+    if (fault && fault->kind == FaultKind::SkipWait && fault->direction == SLUICE_HOST_TO_RENDERER &&
+        fault->frame == frame) {
+        call.flags |= SLUICE_FRAME_SKIP_WAIT;
+    }
+    tellSubmit(frame);
     const std::uint64_t begin = traceClock(link_.config.trace);
     Status status = link_.renderer.submit(call);
     traceStep(link_.config.trace, SLUICE_TRACE_SUBMIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST,
               fluidWritten(frame), begin, "submit_frame");
     return status;
+}
+
+void FluidHostImpl::tellSubmit(std::uint64_t frame) {
+    if (feed() != nullptr && !feed()->submits(frame)) {
+        link_.services.log(SLUICE_LOG_WARNING,
+                           "ledger: off from here on: the renderer sends no trace events of its queue");
+    }
 }
 
 Status FluidHostImpl::submit(const Screen& screen, const FrameInput& input) {
@@ -194,9 +222,18 @@ Status FluidHostImpl::submit(const Screen& screen, const FrameInput& input) {
     if (Status status = link_.sets->beginCapture(frame); !status) {
         return status;
     }
+    if (feed() != nullptr) {
+        feed()->captureBegins(frame);
+    }
     capture(screen, input.camera, frame);
+    if (feed() != nullptr) {
+        feed()->captureEnds(frame);
+    }
     if (Status status = link_.timeline->signal(gbufferWritten(frame), textures); !status) {
         link_.sets->cancelCapture(frame);
+        if (feed() != nullptr) {
+            feed()->takenBack(frame);
+        }
         return status;
     }
     // From here on the values of this frame are spent, whatever the renderer says.
@@ -207,6 +244,9 @@ Status FluidHostImpl::submit(const Screen& screen, const FrameInput& input) {
     if (Status status = callRenderer(input, frame); !status) {
         noteLoss(status.error().code);
         link_.sets->abandoned(frame);
+        if (feed() != nullptr) {
+            feed()->takenBack(frame);
+        }
         return status;
     }
     if (Status status = link_.sets->promised(frame); !status) {
@@ -241,6 +281,9 @@ Status FluidHostImpl::composite(const Screen& screen) {
     const std::uint64_t bytes = std::uint64_t{link_.info.width} * link_.info.height *
                                 (2 * kScreenBytes + texelBytes(link_.info.formats[SLUICE_IMAGE_FLUID_COLOUR]) +
                                  texelBytes(link_.info.formats[SLUICE_IMAGE_FLUID_DEPTH]));
+    if (feed() != nullptr) {
+        feed()->compositeReads(frame);
+    }
     timer_.begin("composite", frame, bytes);
     compositor_.draw(screen.framebuffer(), link_.info.width, link_.info.height,
                      images.texture(SLUICE_IMAGE_FLUID_COLOUR, set), images.texture(SLUICE_IMAGE_FLUID_DEPTH, set));

@@ -22,13 +22,13 @@ Status checkUser(const void* user) {
 
 }  // namespace
 
-HostServices::HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace)
+HostServices::HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace, bool ledger)
     : log_(std::move(log)), trace_(trace) {
     table_.struct_size = sizeof(table_);
     table_.abi_version = SLUICE_ABI_VERSION;
     table_.user = this;
     table_.log = &HostServices::logService;
-    table_.trace = trace != nullptr ? &HostServices::traceService : nullptr;
+    table_.trace = trace != nullptr || ledger ? &HostServices::traceService : nullptr;
     table_.share_image = &HostServices::shareService;
     table_.retire_image = &HostServices::retireService;
     table_.canary = &HostServices::canaryService;
@@ -66,7 +66,16 @@ void HostServices::traceService(void* user, const SluiceTraceEvent* event) {
             return {};
         }));
     }
-    self.trace_->record(*event);
+    if (self.trace_ != nullptr) {
+        self.trace_->record(*event);
+    }
+    ledger::HandOffFeed* feed = self.feed_;
+    if (feed != nullptr && event->struct_size >= kAbiMinimum<SluiceTraceEvent>) {
+        static_cast<void>(guarded(nullptr, [&]() -> Status {
+            feed->trace(readAbiStruct(*event));
+            return {};
+        }));
+    }
 }
 
 SluiceResult HostServices::shareService(void* user, const SluiceImageExport* image, SluiceError* error) {

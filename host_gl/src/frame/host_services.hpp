@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "share/image_table.hpp"
+#include "sluice/ledger/hand_off_feed.hpp"
 #include "sluice/plugin.h"
 #include "sluice/trace.hpp"
 
@@ -17,7 +18,8 @@ namespace sluice::host {
 /// called on any thread and is called on one at a time.
 class HostServices {
   public:
-    HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace);
+    /// `ledger`: the renderer shall send its events even when `trace` is nullptr, for tellFeed().
+    HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace, bool ledger = false);
     ~HostServices() = default;
     HostServices(const HostServices&) = delete;
     HostServices& operator=(const HostServices&) = delete;
@@ -26,10 +28,13 @@ class HostServices {
     [[nodiscard]] ImageTable& images() { return images_; }
     [[nodiscard]] const ImageTable& images() const { return images_; }
     void log(SluiceLogLevel level, std::string_view message);
+    /// From now on the renderer's events go to `feed` as well; nullptr: no more.
+    void tellFeed(ledger::HandOffFeed* feed) { feed_ = feed; }
 
   private:
     std::function<void(SluiceLogLevel, std::string_view)> log_;
     Trace* trace_;
+    std::atomic<ledger::HandOffFeed*> feed_{nullptr};
     ImageTable images_;
     SluiceHostServices table_{};
     std::mutex log_mutex_;

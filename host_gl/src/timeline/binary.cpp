@@ -30,7 +30,11 @@ class BinaryTimeline final : public HostTimeline {
         if (!semaphore) {
             return semaphore.error();
         }
-        return signalRenderer(semaphore.value(), value, begin, textures, deps_.trace);
+        Status status = signalRenderer(semaphore.value(), value, begin, textures, deps_.trace);
+        if (status && deps_.feed != nullptr) {
+            deps_.feed->glSignals(value, !textures.empty());
+        }
+        return status;
     }
 
     [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t /*timeout_ns*/,
@@ -45,6 +49,9 @@ class BinaryTimeline final : public HostTimeline {
             return semaphore.error();
         }
         Status status = waitForRenderer(semaphore.value(), value, begin, textures, deps_.trace);
+        if (status && deps_.feed != nullptr) {
+            deps_.feed->glWaits(value, !textures.empty());
+        }
         waited_ = status ? value : waited_;
         return status;
     }

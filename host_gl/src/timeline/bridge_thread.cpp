@@ -110,11 +110,14 @@ void BridgeThread::run() {
 }
 
 void BridgeThread::keep(const Promise& promise) {
-    const std::uint64_t begin = traceClock(deps_.trace);
+    const std::uint64_t begin = traceClock(deps_.trace, deps_.feed);
     const Status arrived = waitForFence(promise);
     traceStep(deps_.trace, SLUICE_TRACE_MARK, SLUICE_TRACK_BRIDGE, SLUICE_HOST_TO_RENDERER, promise.value, begin,
               "wait for GL fence");
     glDeleteSync(promise.fence);
+    if (deps_.feed != nullptr) {
+        deps_.feed->bridgeWaited(promise.value, begin, arrived.ok());
+    }
     if (!arrived) {
         fail(arrived.error());
     }

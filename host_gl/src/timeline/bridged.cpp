@@ -36,6 +36,9 @@ class BridgedTimeline final : public HostTimeline {
         }
         // The flush is this thread's: glClientWaitSync on another context cannot flush the commands of this one.
         glFlush();
+        if (deps_.feed != nullptr) {
+            deps_.feed->fencePromised(value);
+        }
         bridge_->promise(fence, value);
         traceStep(deps_.trace, SLUICE_TRACE_MARK, SLUICE_TRACK_HOST_CPU, SLUICE_HOST_TO_RENDERER, value, begin,
                   "queue GL fence");
@@ -52,6 +55,7 @@ class BridgedTimeline final : public HostTimeline {
             if (std::optional<Error> error = bridge_->takeError()) {
                 return *error;
             }
+            tellWatchdog(deps_, value, begin);
             return Error{SLUICE_TIMEOUT, "bridged timeline",
                          fmt::format("the GL fence of value {} did not arrive within {:.3f} s", gbufferWritten(value),
                                      static_cast<double>(timeout_ns) * 1e-9),

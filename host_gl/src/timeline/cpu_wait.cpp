@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "sluice/abi_sizes.hpp"
 #include "timeline/timeline_events.hpp"
 
 namespace sluice::host {
@@ -34,11 +35,15 @@ SluiceResult waitInSlices(const TimelineDeps& deps, std::uint64_t value, std::ui
 
 Status waitOnCpu(const TimelineDeps& deps, std::uint64_t value, std::uint64_t timeout_ns,
                  const std::atomic<bool>* hopeless) {
-    const std::uint64_t begin = traceClock(deps.trace);
+    const std::uint64_t begin = traceClock(deps.trace, deps.feed);
+    if (deps.feed != nullptr) {
+        deps.feed->hostWaits(value);
+    }
     const SluiceResult result = waitInSlices(deps, value, timeout_ns, hopeless);
     traceStep(deps.trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
               "wait for renderer");
     if (result == SLUICE_TIMEOUT) {
+        tellWatchdog(deps, value, begin);
         return Error{SLUICE_TIMEOUT, "renderer's timeline",
                      fmt::format("did not reach {} within {:.3f} s", value, static_cast<double>(timeout_ns) * 1e-9),
                      "raise wait_timeout_ns, or look at the trace for what the renderer waits for"};
@@ -48,11 +53,44 @@ Status waitOnCpu(const TimelineDeps& deps, std::uint64_t value, std::uint64_t ti
                      fmt::format("waiting for {} failed with code {}", value, static_cast<int>(result)),
                      "destroy the renderer and create it again"};
     }
+    if (deps.feed != nullptr) {
+        deps.feed->hostWaited(value, begin, false);
+    }
     return {};
+}
+
+void tellWatchdog(const TimelineDeps& deps, std::uint64_t value, std::uint64_t begin_ns) {
+    if (deps.feed == nullptr) {
+        return;
+    }
+    // What has ended on the queue comes to the ledger when its frame is polled; the chain shall not name that.
+    const std::uint64_t oldest = value > SLUICE_MAX_IMAGE_SETS ? value - SLUICE_MAX_IMAGE_SETS : 1;
+    for (std::uint64_t frame = oldest; frame <= value; ++frame) {
+        auto stats = sized<SluiceFrameStats>();
+        (void)deps.api->poll(deps.renderer, frame, &stats);
+    }
+    if (deps.log) {
+        const auto waited = static_cast<double>(monotonicNanoseconds() - begin_ns) * 1e-9;
+        deps.log(
+            SLUICE_LOG_WARNING,
+            fmt::format("watchdog: the host has waited {:.3f} s for renderer-to-host >= {} and goes on without the "
+                        "fluid. Who waits for whom:\n{}",
+                        waited, value, deps.feed->waitForChain(value)));
+    }
+    deps.feed->hostWaited(value, begin_ns, true);
 }
 
 Status signalFromCpu(const TimelineDeps& deps, std::uint64_t value, SluiceTrack track) {
     const std::uint64_t begin = traceClock(deps.trace);
+    if (deps.feed != nullptr) {
+        // Before the call: what the renderer does then must not come to the ledger first. A value that it refuses was
+        // wrong, and the ledger says so.
+        if (track == SLUICE_TRACK_BRIDGE) {
+            deps.feed->bridgeSignals(value);
+        } else {
+            deps.feed->hostSignals(value);
+        }
+    }
     const SluiceResult result = deps.api->timeline_signal(deps.renderer, value);
     if (result != SLUICE_OK) {
         return Error{result < 0 ? result : SLUICE_ERROR_INTERNAL, "host's timeline",

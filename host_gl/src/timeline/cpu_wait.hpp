@@ -14,6 +14,9 @@ namespace sluice::host {
 /// the time had passed, soon after `hopeless` (may be nullptr) becomes true.
 [[nodiscard]] Status waitOnCpu(const TimelineDeps& deps, std::uint64_t value, std::uint64_t timeout_ns,
                                const std::atomic<bool>* hopeless);
+/// A wait for `value` of the renderer that began at `begin_ns` has passed its deadline: the log gets the chain of those
+/// who wait for each other, and the ledger the wait. Nothing without a ledger.
+void tellWatchdog(const TimelineDeps& deps, std::uint64_t value, std::uint64_t begin_ns);
 /// Raises the host-to-renderer counter from the CPU and records it on `track`.
 [[nodiscard]] Status signalFromCpu(const TimelineDeps& deps, std::uint64_t value, SluiceTrack track);
 

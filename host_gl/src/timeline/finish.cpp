@@ -7,6 +7,7 @@
 
 #include "timeline/backends.hpp"
 #include "timeline/cpu_wait.hpp"
+#include "timeline/timeline_events.hpp"
 
 namespace sluice::host {
 
@@ -19,7 +20,11 @@ class FinishTimeline final : public HostTimeline {
     [[nodiscard]] SluiceTimelineKind kind() const override { return SLUICE_TIMELINE_FINISH; }
 
     [[nodiscard]] Status signal(std::uint64_t value, std::span<const std::uint32_t> /*textures*/) override {
+        const std::uint64_t begin = traceClock(deps_.trace, deps_.feed);
         glFinish();
+        if (deps_.feed != nullptr) {
+            deps_.feed->glFinished(begin);
+        }
         return signalFromCpu(deps_, value, SLUICE_TRACK_HOST_CPU);
     }
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string_view>
 
+#include "sluice/ledger/hand_off_feed.hpp"
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
 #include "sluice/timeline.hpp"
@@ -18,7 +19,8 @@ namespace sluice::host {
 struct TimelineDeps {
     const SluiceRendererApi* api = nullptr;
     SluiceRenderer* renderer = nullptr;
-    Trace* trace = nullptr;  ///< nullptr: tracing off
+    Trace* trace = nullptr;               ///< nullptr: tracing off
+    ledger::HandOffFeed* feed = nullptr;  ///< nullptr: no ledger
     std::function<void(SluiceLogLevel, std::string_view)> log;
     /// BRIDGED: how long destruction waits for fences that have not arrived before it lets the renderer go on without
     /// them.

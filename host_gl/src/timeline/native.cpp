@@ -25,7 +25,11 @@ class NativeTimeline final : public HostTimeline {
         if (Status status = to_renderer_.setValue(value); !status) {
             return status;
         }
-        return signalRenderer(to_renderer_, value, begin, textures, deps_.trace);
+        Status status = signalRenderer(to_renderer_, value, begin, textures, deps_.trace);
+        if (status && deps_.feed != nullptr) {
+            deps_.feed->glSignals(value, !textures.empty());
+        }
+        return status;
     }
 
     [[nodiscard]] Status wait(std::uint64_t value, std::uint64_t /*timeout_ns*/,
@@ -34,7 +38,11 @@ class NativeTimeline final : public HostTimeline {
         if (Status status = to_host_.setValue(value); !status) {
             return status;
         }
-        return waitForRenderer(to_host_, value, begin, textures, deps_.trace);
+        Status status = waitForRenderer(to_host_, value, begin, textures, deps_.trace);
+        if (status && deps_.feed != nullptr) {
+            deps_.feed->glWaits(value, !textures.empty());
+        }
+        return status;
     }
 
   private:

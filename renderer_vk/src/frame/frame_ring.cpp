@@ -209,15 +209,22 @@ void FrameRing::collect() {
 }
 
 void FrameRing::finish(Slot& slot) {
-    slot.running = false;
-    Result<FrameTimes> read = slot.timer.read();
-    FrameTimes times;
-    if (read) {
-        times = std::move(read).value();
-    } else {
-        device_.log(SLUICE_LOG_WARNING, read.error().message());
-        times.passes.resize(slot.timer.labels().size());
+    // The queue is in order, so earlier frames have ended as well, and their events come first.
+    for (;;) {
+        const auto earlier = std::min_element(slots_.begin(), slots_.end(), [](const auto& a, const auto& b) {
+            return std::pair(!a->running, a->stats.frame) < std::pair(!b->running, b->stats.frame);
+        });
+        if (!(*earlier)->running || (*earlier)->stats.frame >= slot.stats.frame) {
+            break;
+        }
+        finishOne(**earlier);
     }
+    finishOne(slot);
+}
+
+void FrameRing::finishOne(Slot& slot) {
+    slot.running = false;
+    const FrameTimes times = slot.timer.read();
     fillPasses(slot.stats, slot.timer.labels(), times.passes);
     slot.stats.cpu_copy_bytes = device_.shared_bytes_by_cpu.load(std::memory_order_relaxed) - slot.cpu_bytes_before;
     if (slot.uploads) {

@@ -75,6 +75,7 @@ class FrameRing {
     [[nodiscard]] Status enqueue(Slot& slot, const SluiceFrame& frame, const SubmitSemaphores& semaphores) const;
     [[nodiscard]] bool finished(const Slot& slot) const;
     void finish(Slot& slot);
+    void finishOne(Slot& slot);
     void emit(const Slot& slot, const FrameTimes& times) const;
 
     const Device& device_;

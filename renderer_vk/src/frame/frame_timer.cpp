@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "frame/frame_timer.hpp"
 
+#include <cstring>
+#include <utility>
+
 #include "device/commands.hpp"
 #include "device/structs.hpp"
 #include "sluice/trace.hpp"
@@ -35,6 +38,16 @@ Status FrameTimer::create() {
         result != VK_SUCCESS) {
         return vulkanError(result, "vkCreateQueryPool");
     }
+    BufferDesc desc;
+    desc.size = kQueries * sizeof(std::uint64_t);
+    desc.usage = VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    desc.place = BufferPlace::Readback;
+    desc.name = "timestamps";
+    Result<Buffer> results = Buffer::create(device_, desc);
+    if (!results) {
+        return results.error();
+    }
+    results_ = std::move(results).value();
     return {};
 }
 
@@ -63,6 +76,16 @@ void FrameTimer::frameBegin(VkCommandBuffer commands) {
 
 void FrameTimer::frameEnd(VkCommandBuffer commands) {
     stamp(commands, kFrameEnd);
+    if (pool_ == VK_NULL_HANDLE) {
+        return;
+    }
+    // On the device, because vkGetQueryPoolResults of lavapipe waits until the whole device is idle: with a later frame
+    // in the queue that waits for a value which the host's thread has yet to give, that is for ever.
+    const std::uint32_t count = kFirstPass + 2 * static_cast<std::uint32_t>(labels_.size());
+    device_.fn.vkCmdCopyQueryPoolResults(commands, pool_, 0, count, results_.buffer(), 0, sizeof(std::uint64_t),
+                                         VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
+    memoryBarrier(device_, commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                  VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
 void FrameTimer::begin(VkCommandBuffer commands, const PassLabel& label) {
@@ -108,20 +131,14 @@ std::uint64_t FrameTimer::monotonicOf(std::uint64_t ticks, std::uint64_t last_ti
     return reference_ns - ticksToNanoseconds(ticks, reference_ticks, device_.timestamp_valid_bits, period);
 }
 
-Result<FrameTimes> FrameTimer::read() const {
+FrameTimes FrameTimer::read() const {
     FrameTimes out;
     out.passes.resize(labels_.size());
     if (pool_ == VK_NULL_HANDLE) {
         return out;
     }
     std::array<std::uint64_t, kQueries> ticks{};
-    const std::uint32_t count = kFirstPass + 2 * static_cast<std::uint32_t>(labels_.size());
-    const VkResult result =
-        device_.fn.vkGetQueryPoolResults(device_.handle, pool_, 0, count, count * sizeof(std::uint64_t), ticks.data(),
-                                         sizeof(std::uint64_t), VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "vkGetQueryPoolResults");
-    }
+    std::memcpy(ticks.data(), results_.mapped().data(), sizeof(ticks));
     const float period = device_.properties.limits.timestampPeriod;
     const auto span = [&](std::uint32_t begin, std::uint32_t end) {
         return ticksToNanoseconds(ticks[begin], ticks[end], device_.timestamp_valid_bits, period);

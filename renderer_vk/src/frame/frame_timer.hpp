@@ -10,6 +10,7 @@
 
 #include "device/device.hpp"
 #include "frame/pass_context.hpp"
+#include "memory/buffer.hpp"
 #include "sluice/result.hpp"
 
 namespace sluice::vk {
@@ -43,7 +44,7 @@ class FrameTimer final : public PassTimer {
 
     [[nodiscard]] const std::vector<PassLabel>& labels() const { return labels_; }
     /// Only when the frame has finished.
-    [[nodiscard]] Result<FrameTimes> read() const;
+    [[nodiscard]] FrameTimes read() const;
 
   private:
     void stamp(VkCommandBuffer commands, std::uint32_t query) const;
@@ -52,6 +53,7 @@ class FrameTimer final : public PassTimer {
 
     const Device& device_;
     VkQueryPool pool_ = VK_NULL_HANDLE;
+    Buffer results_;  ///< ticks by query, filled at the end of the frame
     std::vector<PassLabel> labels_;
     bool measuring_ = false;
 };

@@ -5,7 +5,10 @@
 #include <dlfcn.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <thread>
+#include <utility>
 
 #include "sluice/plugin.h"
 
@@ -57,7 +60,12 @@ SluiceResult create(const SluiceHostServices* host, const SluiceCreateInfo* info
     } else {
         claimed = SLUICE_TIMELINE_AUTO;
     }
-    return real->create(host, &changed, renderer, error);
+    static SluiceHostServices services;
+    services = *host;
+    if (control.mute) {
+        services.trace = nullptr;
+    }
+    return real->create(&services, &changed, renderer, error);
 }
 
 SluiceResult info(SluiceRenderer* renderer, SluiceRendererInfo* out) {
@@ -73,6 +81,11 @@ SluiceResult submitFrame(SluiceRenderer* renderer, const SluiceFrame* frame, Slu
     if (frame->frame == sluice_shim_control.lose_submit) {
         return refuse(error, SLUICE_ERROR_DEVICE_LOST, "the shim has lost its device");
     }
+    if (frame->frame >= sluice_shim_control.fail_from && frame->frame <= sluice_shim_control.fail_to) {
+        SluiceFrame changed = *frame;
+        changed.outputs = UINT32_MAX;  // which the real renderer refuses
+        return real->submit_frame(renderer, &changed, error);
+    }
     return real->submit_frame(renderer, frame, error);
 }
 
@@ -82,6 +95,21 @@ SluiceResult poll(SluiceRenderer* renderer, std::uint64_t frame, SluiceFrameStat
 
 SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns) {
     ++sluice_shim_control.waits;
+    if (value != 0 && value == sluice_shim_control.stall_value) {
+        using std::chrono::steady_clock;
+        static steady_clock::time_point until;
+        static std::uint64_t stalled = 0;
+        if (std::exchange(stalled, value) != value) {
+            until = steady_clock::now() + std::chrono::milliseconds(sluice_shim_control.stall_ms);
+        }
+        const auto asked = steady_clock::now() + std::chrono::nanoseconds(timeout_ns);
+        std::this_thread::sleep_until(std::min(asked, until));
+        if (steady_clock::now() < until) {
+            return SLUICE_TIMEOUT;
+        }
+        sluice_shim_control.stall_value = stalled = 0;
+        return SLUICE_TIMEOUT;
+    }
     return sluice_shim_control.drop_host_wait ? SLUICE_OK : real->timeline_wait(renderer, value, timeout_ns);
 }
 

@@ -11,16 +11,20 @@ constexpr const char* kShimControlSymbol = "sluice_shim_control";
 
 /// Everything zero: the real renderer, unchanged. The GL thread alone touches it.
 struct ShimControl {
-    std::uint32_t lies = 0;           ///< bit per SluiceTimelineKind: claimed without semaphores, bridged underneath
-    std::uint32_t refuses = 0;        ///< bit per SluiceTimelineKind: create fails when it is asked for
-    std::uint64_t lose_submit = 0;    ///< submit_frame of this frame says that the device is lost
-    std::uint64_t lose_poll = 0;      ///< poll of this frame says so
-    bool drop_host_wait = false;      ///< timeline_wait returns at once
-    std::uint32_t waits = 0;          ///< calls of timeline_wait
-    std::uint32_t submits = 0;        ///< calls of submit_frame
-    std::uint32_t destroys = 0;       ///< calls of destroy with a renderer
-    std::uint32_t attempt_count = 0;  ///< calls of create
-    std::array<std::uint32_t, 8> attempts{};  ///< SluiceTimelineKind of each
+    std::uint32_t lies = 0;         ///< bit per SluiceTimelineKind: claimed without semaphores, bridged underneath
+    std::uint32_t refuses = 0;      ///< bit per SluiceTimelineKind: create fails when it is asked for
+    std::uint64_t lose_submit = 0;  ///< submit_frame of this frame says that the device is lost
+    std::uint64_t lose_poll = 0;    ///< poll of this frame says so
+    std::uint64_t fail_from = 0, fail_to = 0;  ///< submit_frame of these frames fails inside the real renderer
+    std::uint64_t stall_value = 0;             ///< timeline_wait for this value does not see it ...
+    std::uint64_t stall_ms = 0;                ///< ... until so long after the first call
+    bool mute = false;                         ///< the renderer is not given the trace service
+    bool drop_host_wait = false;               ///< timeline_wait returns at once
+    std::uint32_t waits = 0;                   ///< calls of timeline_wait
+    std::uint32_t submits = 0;                 ///< calls of submit_frame
+    std::uint32_t destroys = 0;                ///< calls of destroy with a renderer
+    std::uint32_t attempt_count = 0;           ///< calls of create
+    std::array<std::uint32_t, 8> attempts{};   ///< SluiceTimelineKind of each
 };
 
 }  // namespace sluice::host::test

@@ -5,15 +5,21 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <vector>
 
+#include "sluice/host_gl/fault_plan.hpp"
 #include "sluice/host_gl/plugin_library.hpp"
 #include "sluice/host_gl/screen.hpp"
 #include "sluice/negotiate.hpp"
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
 #include "sluice/trace.hpp"
+
+namespace sluice::ledger {
+class LiveLedger;
+}
 
 namespace sluice::host {
 
@@ -26,6 +32,10 @@ struct FluidHostConfig {
     bool validation = false;
     std::uint64_t wait_timeout_ns = 10'000'000'000ULL;
     Trace* trace = nullptr;  ///< must outlive the FluidHost; nullptr: tracing off
+    /// Gets every step of the hand-off as it is taken (sluice/ledger/live.hpp), and the log the chain of waits when one
+    /// passes its deadline. Must outlive the FluidHost, and is of no other; nullptr: off.
+    ledger::LiveLedger* ledger = nullptr;
+    std::optional<FaultPlan> fault;  ///< for tests: one thing that goes wrong
     std::function<void(SluiceLogLevel, std::string_view)> log;
 };
 

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// One mistake in the order of a hand-off, made on purpose.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+#include "sluice/plugin.h"
+
+namespace sluice::host {
+
+/// Everything but SkipWait of HOST_TO_RENDERER, which the renderer leaves out, is done on the host's side.
+enum class FaultKind : std::uint8_t {
+    Drop,        ///< the signal is never given; RENDERER_TO_HOST: the host never sees it
+    Delay,       ///< it comes late
+    Duplicate,   ///< it is given twice
+    Swap,        ///< it changes places with the host's next
+    WrongValue,  ///< another value is signalled, or waited for
+    SkipWait,    ///< the wait is left out
+    EarlyReuse,  ///< the composite is left out, and so is the wait before the set is captured into again
+};
+inline constexpr std::array<std::pair<std::string_view, FaultKind>, 7> kFaultNames{
+    {{"drop", FaultKind::Drop},
+     {"delay", FaultKind::Delay},
+     {"duplicate", FaultKind::Duplicate},
+     {"swap", FaultKind::Swap},
+     {"wrong-value", FaultKind::WrongValue},
+     {"skip-wait", FaultKind::SkipWait},
+     {"early-reuse", FaultKind::EarlyReuse}}};
+
+struct FaultPlan {
+    FaultKind kind{};
+    std::uint64_t frame = 0;
+    SluiceDirection direction = SLUICE_HOST_TO_RENDERER;
+    /// Delay: milliseconds. WrongValue: the value, 0 for the next frame's (HOST_TO_RENDERER) or the last one's.
+    std::uint64_t value = 0;
+};
+
+/// Duplicate and Swap are about signals, and the renderer's are its own; EarlyReuse is about the host's wait.
+[[nodiscard]] constexpr bool possible(FaultKind kind, SluiceDirection direction) {
+    return direction == SLUICE_HOST_TO_RENDERER ? kind != FaultKind::EarlyReuse
+                                                : kind != FaultKind::Duplicate && kind != FaultKind::Swap;
+}
+
+}  // namespace sluice::host

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// The ledger while the program runs: any thread may write to it, and what it is told can go to a log as well.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sluice/ledger/ledger.hpp"
+#include "sluice/ledger/log.hpp"
+#include "sluice/result.hpp"
+
+namespace sluice::ledger {
+
+/// A Ledger behind a mutex. The log, if there is one, has every record in the order in which the ledger got it.
+class LiveLedger {
+  public:
+    explicit LiveLedger(LedgerOptions options = {}, std::unique_ptr<LogWriter> log = nullptr);
+    LiveLedger(const LiveLedger&) = delete;
+    LiveLedger& operator=(const LiveLedger&) = delete;
+    /// Ends the log, if finish() has not.
+    ~LiveLedger() = default;
+
+    // As those of Ledger.
+    void declareActor(ActorId id, ActorKind kind, std::string_view name);
+    void declareSync(ObjectId id, SyncKind kind, std::string_view name, std::uint64_t initial, std::uint16_t flags);
+    void declareResource(ObjectId id, std::string_view name, std::uint32_t layout, ActorId owner);
+    void record(const Event& event);
+    [[nodiscard]] std::vector<std::string> waitChain(ActorId actor) const;
+
+    /// Judges what is still open and ends the log: the first failure to write it. What comes later is not recorded, so
+    /// that a thread that is late does no harm.
+    Status finish(End end);
+
+    [[nodiscard]] std::vector<Finding> findings() const;
+    [[nodiscard]] std::uint64_t findingsDropped() const;
+    [[nodiscard]] std::uint64_t eventsSeen() const;
+    [[nodiscard]] std::size_t memoryBytes() const;
+
+  private:
+    mutable std::mutex mutex_;
+    Ledger ledger_;                   // guarded by mutex_
+    std::unique_ptr<LogWriter> log_;  // guarded by mutex_
+    bool finished_ = false;           // guarded by mutex_
+};
+
+}  // namespace sluice::ledger

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+#include "sluice/ledger/live.hpp"
+
+#include <utility>
+
+namespace sluice::ledger {
+
+LiveLedger::LiveLedger(LedgerOptions options, std::unique_ptr<LogWriter> log)
+    : ledger_(options), log_(std::move(log)) {}
+
+void LiveLedger::declareActor(ActorId id, ActorKind kind, std::string_view name) {
+    const std::lock_guard lock(mutex_);
+    if (finished_) {
+        return;
+    }
+    ledger_.declareActor(id, kind, name);
+    if (log_) {
+        log_->declareActor(id, kind, name);
+    }
+}
+
+void LiveLedger::declareSync(ObjectId id, SyncKind kind, std::string_view name, std::uint64_t initial,
+                             std::uint16_t flags) {
+    const std::lock_guard lock(mutex_);
+    if (finished_) {
+        return;
+    }
+    ledger_.declareSync(id, kind, name, initial, flags);
+    if (log_) {
+        log_->declareSync(id, kind, name, initial, flags);
+    }
+}
+
+void LiveLedger::declareResource(ObjectId id, std::string_view name, std::uint32_t layout, ActorId owner) {
+    const std::lock_guard lock(mutex_);
+    if (finished_) {
+        return;
+    }
+    ledger_.declareResource(id, name, layout, owner);
+    if (log_) {
+        log_->declareResource(id, name, layout, owner);
+    }
+}
+
+void LiveLedger::record(const Event& event) {
+    const std::lock_guard lock(mutex_);
+    if (finished_) {
+        return;
+    }
+    ledger_.record(event);
+    if (log_) {
+        log_->record(event);
+    }
+}
+
+std::vector<std::string> LiveLedger::waitChain(ActorId actor) const {
+    const std::lock_guard lock(mutex_);
+    return ledger_.waitChain(actor);
+}
+
+Status LiveLedger::finish(End end) {
+    const std::lock_guard lock(mutex_);
+    if (finished_) {
+        return {};
+    }
+    finished_ = true;
+    ledger_.finish(end);
+    if (!log_) {
+        return {};
+    }
+    log_->flush();
+    Status status = log_->status();
+    log_.reset();
+    return status;
+}
+
+std::vector<Finding> LiveLedger::findings() const {
+    const std::lock_guard lock(mutex_);
+    return ledger_.findings();
+}
+
+std::uint64_t LiveLedger::findingsDropped() const {
+    const std::lock_guard lock(mutex_);
+    return ledger_.findingsDropped();
+}
+
+std::uint64_t LiveLedger::eventsSeen() const {
+    const std::lock_guard lock(mutex_);
+    return ledger_.eventsSeen();
+}
+
+std::size_t LiveLedger::memoryBytes() const {
+    const std::lock_guard lock(mutex_);
+    return ledger_.memoryBytes();
+}
+
+}  // namespace sluice::ledger

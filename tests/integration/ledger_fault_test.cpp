@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// One ordering fault each, made on purpose between the real drivers: what the ledger says, what the pixels say, and
+// that the host's frame goes on.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <tuple>
+
+#include "ledger_rig.hpp"
+#include "sluice/format.hpp"
+
+namespace sluice::host::test {
+namespace {
+
+constexpr std::uint64_t kFaultyFrame = 5;
+constexpr std::uint64_t kFrames = 12;
+
+constexpr const char* kRace = "race-write-after-write";
+constexpr const char* kTimedOut = "wait-timed-out";
+constexpr const char* kNotIncreasing = "timeline-not-increasing";
+
+/// A fault and what has to be found with each backend. Nothing: nothing may be.
+struct Case {
+    FaultKind kind;
+    SluiceDirection direction;
+    std::uint64_t value = 0;
+    std::vector<std::string> bridged, finish;
+    std::uint32_t sets = 2;
+};
+
+std::string_view nameOf(FaultKind kind) {
+    const auto* found =
+        std::find_if(kFaultNames.begin(), kFaultNames.end(), [&](const auto& one) { return one.second == kind; });
+    return found->first;
+}
+
+class OrderingFault : public LedgerTest, public ::testing::WithParamInterface<std::tuple<Case, SluiceTimelineKind>> {};
+
+TEST_P(OrderingFault, IsFound) {
+    const auto& [fault, timeline] = GetParam();
+    wait_timeout_ns_ = 1'500'000'000;
+    ASSERT_NO_FATAL_FAILURE(
+        start(timeline, fault.sets, FaultPlan{fault.kind, kFaultyFrame, fault.direction, fault.value}));
+    frames(kFrames, 24);
+    EXPECT_EQ(fresh_ + stale_ + torn_ + without_fluid_, kFrames);
+    finish();
+    complaints_.clear();
+    std::string ids;
+    for (const auto& [id, count] : found()) {
+        ids += (ids.empty() ? "" : ", ") + id;
+    }
+    std::printf(
+        "| %s | %s | %s | %s | %llu stale, %llu torn, %llu without fluid |\n", std::string(nameOf(fault.kind)).c_str(),
+        fault.direction == SLUICE_HOST_TO_RENDERER ? "to renderer" : "to host", std::string(toString(timeline)).c_str(),
+        ids.empty() ? "nothing" : ids.c_str(), static_cast<unsigned long long>(stale_),
+        static_cast<unsigned long long>(torn_), static_cast<unsigned long long>(without_fluid_));
+    const std::vector<std::string>& expected = timeline == SLUICE_TIMELINE_FINISH ? fault.finish : fault.bridged;
+    for (const std::string& id : expected) {
+        EXPECT_THAT(found(), ::testing::Contains(::testing::Key(id)));
+    }
+    if (expected.empty()) {
+        EXPECT_THAT(found(), ::testing::IsEmpty());
+        EXPECT_EQ(stale_ + torn_, 0U) << "the pixels saw what the ledger did not";
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Software, OrderingFault,
+    ::testing::Combine(
+        ::testing::Values(
+            // The finish renderer refuses a frame whose value has not been signalled, so nothing waits for it.
+            Case{FaultKind::Drop, SLUICE_HOST_TO_RENDERER, 0, {kTimedOut}, {}},
+            Case{FaultKind::Drop, SLUICE_RENDERER_TO_HOST, 0, {kTimedOut}, {kTimedOut}},
+            // Late is not wrong.
+            Case{FaultKind::Delay, SLUICE_HOST_TO_RENDERER, 50, {}, {}},
+            Case{FaultKind::Delay, SLUICE_RENDERER_TO_HOST, 50, {}, {}},
+            Case{FaultKind::Duplicate, SLUICE_HOST_TO_RENDERER, 0, {kNotIncreasing}, {kNotIncreasing}},
+            Case{FaultKind::Swap, SLUICE_HOST_TO_RENDERER, 0, {kNotIncreasing}, {kNotIncreasing}},
+            Case{FaultKind::WrongValue, SLUICE_HOST_TO_RENDERER, 0, {kNotIncreasing, kRace}, {kNotIncreasing}},
+            Case{FaultKind::WrongValue, SLUICE_RENDERER_TO_HOST, 0, {kRace}, {kRace}},
+            // With finish the submission itself comes after glFinish: the wait says nothing new.
+            Case{FaultKind::SkipWait, SLUICE_HOST_TO_RENDERER, 0, {kRace}, {}},
+            Case{FaultKind::SkipWait, SLUICE_RENDERER_TO_HOST, 0, {kRace}, {kRace}},
+            // With more sets the composite of the next frame waits for this one as well.
+            Case{FaultKind::EarlyReuse, SLUICE_RENDERER_TO_HOST, 0, {kRace}, {kRace}, 1}),
+        ::testing::Values(SLUICE_TIMELINE_BRIDGED, SLUICE_TIMELINE_FINISH)),
+    [](const auto& param) {
+        const Case& fault = std::get<0>(param.param);
+        std::string name = std::string(nameOf(fault.kind)) +
+                           (fault.direction == SLUICE_HOST_TO_RENDERER ? "ToRenderer" : "ToHost") +
+                           std::string(toString(std::get<1>(param.param)));
+        std::erase(name, '-');
+        return name;
+    });
+
+}  // namespace
+}  // namespace sluice::host::test
