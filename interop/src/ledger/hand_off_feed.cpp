@@ -39,6 +39,7 @@ HandOffFeed::HandOffFeed(LiveLedger& ledger, SluiceTimelineKind kind, std::uint3
     ledger_.declareActor(kGlStream, ActorKind::GlContext, "GL stream");
     ledger_.declareActor(kRendererQueue, ActorKind::VulkanQueue, "renderer's queue");
     ledger_.declareSync(kSubmissions, SyncKind::Timeline, "submissions", 0, 0);
+    ledger_.declareSync(kQueueDrains, SyncKind::Timeline, "renderer idle", 0, 0);
     ledger_.declareSync(kGlFinishes, SyncKind::Timeline, "calls of glFinish", 0, 0);
     if (kind_ == SLUICE_TIMELINE_BRIDGED) {
         ledger_.declareSync(kGlFences, SyncKind::Timeline, "GL fences", 0, 0);
@@ -129,12 +130,10 @@ void HandOffFeed::imagesMade(std::uint32_t roles) {
 
 void HandOffFeed::imagesDestroyed() {
     const std::lock_guard lock(mutex_);
-    if (host_waited_ < queue_signalled_) {
-        // Inside the host's call the renderer has waited for its queue.
-        put(EventKind::Wait, kHostThread, syncOf(SLUICE_RENDERER_TO_HOST, queue_signalled_), queue_signalled_,
-            queue_signalled_);
-        host_waited_ = queue_signalled_;
-    }
+    // Inside the host's call the renderer has waited for its queue.
+    ++drains_;
+    put(EventKind::Signal, kRendererQueue, kQueueDrains, queue_frame_, drains_);
+    put(EventKind::Wait, kHostThread, kQueueDrains, queue_frame_, drains_);
     for (std::uint32_t set = 0; set < sets_; ++set) {
         for (std::uint32_t role = 0; role < SLUICE_IMAGE_ROLE_COUNT; ++role) {
             if ((roles_ & SLUICE_ROLE_BIT(role)) != 0) {
@@ -253,7 +252,6 @@ void HandOffFeed::hostWaited(std::uint64_t value, std::uint64_t begin_ns, bool t
     const std::lock_guard lock(mutex_);
     put(EventKind::Wait, kHostThread, syncOf(SLUICE_RENDERER_TO_HOST, value), value, value, begin_ns,
         monotonicNanoseconds() - begin_ns, timed_out ? std::uint16_t{kTimedOut} : std::uint16_t{0});
-    host_waited_ = timed_out ? host_waited_ : std::max(host_waited_, value);
 }
 
 void HandOffFeed::queueBegins(std::uint64_t frame, std::uint64_t begin_ns) {
@@ -307,7 +305,6 @@ void HandOffFeed::trace(const SluiceTraceEvent& event) {
         case SLUICE_TRACE_SIGNAL:
             put(EventKind::Signal, kRendererQueue, syncOf(SLUICE_RENDERER_TO_HOST, event.value), event.frame,
                 event.value, event.begin_ns);
-            queue_signalled_ = std::max(queue_signalled_, event.value);
             unheard_ = 0;
             return;
         default:

@@ -9,8 +9,8 @@
 // of its own and no Submit event: by the time that the queue's events of frame k arrive the host may have submitted
 // frame k+1, and what it knew then is not what frame k was given.
 //
-// Submissions, GL fences and calls of glFinish are counted, and each of the three counters is a timeline: that says as
-// much as an object for each, and the ledger forgets what is past.
+// Submissions, GL fences, calls of glFinish and of the renderer until it is idle are counted, and each of the counters
+// is a timeline: that says as much as an object for each, and the ledger forgets what is past.
 #pragma once
 
 #include <array>
@@ -25,7 +25,8 @@
 namespace sluice::ledger {
 
 inline constexpr ActorId kHostThread = 0, kGlStream = 1, kRendererQueue = 2, kBridgeThread = 3;
-inline constexpr ObjectId kHostToRenderer = 0, kRendererToHost = 1, kSubmissions = 2, kGlFences = 3, kGlFinishes = 4;
+inline constexpr ObjectId kHostToRenderer = 0, kRendererToHost = 1, kSubmissions = 2, kGlFences = 3, kGlFinishes = 4,
+                          kQueueDrains = 5;
 
 /// The resource that stands for a shared image.
 [[nodiscard]] constexpr ObjectId resourceOf(std::uint32_t role, std::uint32_t image_set) {
@@ -111,9 +112,7 @@ class HandOffFeed {
     std::uint64_t submitted_ = 0;                     ///< frame
     std::uint64_t queue_frame_ = 0;                   ///< the frame that the queue's events are in
     std::uint64_t touched_ = 0;                       ///< the last frame whose passes have been told
-    std::uint64_t queue_signalled_ = 0;
-    std::uint64_t host_waited_ = 0;
-    std::uint64_t finishes_ = 0, fences_ = 0;
+    std::uint64_t finishes_ = 0, fences_ = 0, drains_ = 0;
     std::uint64_t bridged_ = 0;  ///< fences that the bridge has waited for, in their order
     std::uint64_t unheard_ = 0;  ///< submissions since the queue's last signal
     bool blind_ = false;

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// The protocol's steps as the feed tells them, for every kind of timeline, without a driver: the queue's events come as
+// late as they may.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <deque>
+#include <map>
+#include <memory>
+#include <string>
+#include <tuple>
+
+#include "sluice/format.hpp"
+#include "sluice/ledger/hand_off_feed.hpp"
+#include "sluice/roles.hpp"
+#include "sluice/timeline.hpp"
+#include "sluice/trace.hpp"
+
+namespace sluice::ledger {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+using ::testing::Key;
+
+/// What goes wrong, and in which frame.
+struct Mistake {
+    std::uint64_t frame = 0;
+    bool queue_skips_wait = false, host_skips_wait = false, names_left_out = false, submit_fails = false;
+};
+
+class Rig {
+  public:
+    Rig(SluiceTimelineKind kind, std::uint32_t sets, Mistake mistake = {})
+        : kind_(kind), sets_(sets), mistake_(mistake), feed_(std::make_unique<HandOffFeed>(ledger, kind, sets)) {
+        feed_->imagesMade(kAlwaysSharedRoles);
+    }
+
+    /// The queue's events of a frame are told when its set is used again, or at the end.
+    void frames(std::uint64_t count) {
+        for (std::uint64_t i = 0; i < count; ++i) {
+            frame(next_++);
+        }
+    }
+    void resize() {
+        tellQueue(0);
+        feed_->glFinished(monotonicNanoseconds());
+        feed_->imagesDestroyed();
+        feed_->imagesMade(kAlwaysSharedRoles);
+    }
+    void end() {
+        tellQueue(0);
+        feed_.reset();
+        EXPECT_TRUE(ledger.finish(End::Closed));
+    }
+    std::map<std::string, std::string> found() const {
+        std::map<std::string, std::string> ids;
+        for (const Finding& finding : ledger.findings()) {
+            ids[std::string(findingInfo(finding.kind).id)] += finding.sentence + "\n";
+        }
+        return ids;
+    }
+    HandOffFeed& feed() { return *feed_; }
+
+    LiveLedger ledger;
+
+  private:
+    void frame(std::uint64_t k) {
+        const bool wrong = k == mistake_.frame;
+        feed_->captureBegins(k);
+        feed_->captureEnds(k);
+        signal(gbufferWritten(k), !(wrong && mistake_.names_left_out));
+        tellQueue(sets_ - 1);
+        EXPECT_TRUE(feed_->submits(k));
+        if (wrong && mistake_.submit_fails) {
+            feed_->takenBack(k);
+            return;
+        }
+        late_.push_back(k);
+        if (!(wrong && mistake_.host_skips_wait)) {
+            wait(fluidWritten(k));
+        }
+        feed_->compositeReads(k);
+        if (kind_ != SLUICE_TIMELINE_BINARY) {
+            signal(compositeRead(k), false);
+        }
+    }
+    void signal(std::uint64_t value, bool names) {
+        switch (kind_) {
+            case SLUICE_TIMELINE_BRIDGED:
+                feed_->fencePromised(value);
+                feed_->bridgeWaited(value, monotonicNanoseconds(), true);
+                return feed_->bridgeSignals(value);
+            case SLUICE_TIMELINE_FINISH:
+                feed_->glFinished(monotonicNanoseconds());
+                return feed_->hostSignals(value);
+            default:
+                return feed_->glSignals(value, names);
+        }
+    }
+    void wait(std::uint64_t value) {
+        if (kind_ == SLUICE_TIMELINE_NATIVE || kind_ == SLUICE_TIMELINE_BINARY) {
+            return feed_->glWaits(value, true);
+        }
+        feed_->hostWaits(value);
+        feed_->hostWaited(value, monotonicNanoseconds(), false);
+    }
+    void tellQueue(std::size_t leave) {
+        while (late_.size() > leave) {
+            queue(late_.front());
+            late_.pop_front();
+        }
+    }
+    void trace(SluiceTraceKind kind, std::uint64_t frame, std::uint64_t value, const char* name) {
+        SluiceTraceEvent event{};
+        event.struct_size = sizeof(event);
+        event.kind = kind;
+        event.track = SLUICE_TRACK_RENDERER_QUEUE;
+        event.begin_ns = monotonicNanoseconds();
+        event.frame = frame;
+        event.value = value;
+        event.name = name;
+        feed_->trace(event);
+    }
+    void queue(std::uint64_t k) {
+        constexpr std::array kImages{"HOST_COLOUR", "HOST_DEPTH", "FLUID_COLOUR", "FLUID_DEPTH"};
+        if (!(k == mistake_.frame && mistake_.queue_skips_wait)) {
+            trace(SLUICE_TRACE_WAIT, k, gbufferWritten(k), "queue waits for host");
+        }
+        for (const char* image : kImages) {
+            trace(SLUICE_TRACE_ACQUIRE, k, 0, image);
+        }
+        trace(SLUICE_TRACE_PASS, k, 0, "shade");
+        for (const char* image : kImages) {
+            trace(SLUICE_TRACE_RELEASE, k, 0, image);
+        }
+        trace(SLUICE_TRACE_SIGNAL, k, fluidWritten(k), "queue signals host");
+    }
+
+    SluiceTimelineKind kind_;
+    std::uint32_t sets_;
+    Mistake mistake_;
+    std::unique_ptr<HandOffFeed> feed_;
+    std::uint64_t next_ = 1;
+    std::deque<std::uint64_t> late_;
+};
+
+class HandOffFeedOf : public ::testing::TestWithParam<std::tuple<SluiceTimelineKind, std::uint32_t>> {
+  protected:
+    SluiceTimelineKind kind_ = std::get<0>(GetParam());
+    std::uint32_t sets_ = std::get<1>(GetParam());
+};
+
+TEST_P(HandOffFeedOf, IsSilentAboutCleanFramesAResizeAndAFailedSubmit) {
+    Mistake failure;
+    failure.frame = 7;
+    failure.submit_fails = true;
+    Rig rig(kind_, sets_, failure);
+    rig.frames(20);
+    rig.resize();
+    rig.frames(20);
+    rig.end();
+    EXPECT_THAT(rig.found(), IsEmpty());
+    EXPECT_GT(rig.ledger.eventsSeen(), 40U * 20);
+}
+
+TEST_P(HandOffFeedOf, TellsOfTheWaitThatTheHostLeftOut) {
+    Mistake skip;
+    skip.frame = 6;
+    skip.host_skips_wait = true;
+    Rig rig(kind_, sets_, skip);
+    rig.frames(12);
+    rig.end();
+    EXPECT_THAT(rig.found(), Contains(Key("race-write-after-write")));
+}
+
+TEST_P(HandOffFeedOf, TellsOfTheWaitThatTheQueueLeftOutUnlessTheSubmissionImpliesIt) {
+    Mistake skip;
+    skip.frame = 6;
+    skip.queue_skips_wait = true;
+    Rig rig(kind_, sets_, skip);
+    rig.frames(12);
+    rig.end();
+    if (kind_ == SLUICE_TIMELINE_FINISH) {
+        EXPECT_THAT(rig.found(), IsEmpty());
+    } else {
+        EXPECT_THAT(rig.found(), Contains(Key("race-write-after-write")));
+    }
+}
+
+TEST_P(HandOffFeedOf, TellsOfTexturesThatAGlSignalDoesNotName) {
+    Mistake unnamed;
+    unnamed.frame = 6;
+    unnamed.names_left_out = true;
+    Rig rig(kind_, sets_, unnamed);
+    rig.frames(12);
+    rig.end();
+    if (kind_ == SLUICE_TIMELINE_NATIVE || kind_ == SLUICE_TIMELINE_BINARY) {
+        EXPECT_THAT(rig.found(), Contains(Key("resource-not-listed")));
+    } else {
+        EXPECT_THAT(rig.found(), IsEmpty());
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Kinds, HandOffFeedOf,
+                         ::testing::Combine(::testing::Values(SLUICE_TIMELINE_NATIVE, SLUICE_TIMELINE_BINARY,
+                                                              SLUICE_TIMELINE_BRIDGED, SLUICE_TIMELINE_FINISH),
+                                            ::testing::Values(1U, 2U, 4U)),
+                         [](const auto& param) {
+                             return std::string(sluice::toString(std::get<0>(param.param))) +
+                                    std::to_string(std::get<1>(param.param));
+                         });
+
+TEST(HandOffFeed, TheChainNamesTheFenceThatTheBridgeWaitsFor) {
+    Rig rig(SLUICE_TIMELINE_BRIDGED, 2);
+    rig.frames(3);
+    rig.feed().captureBegins(4);
+    rig.feed().captureEnds(4);
+    rig.feed().fencePromised(7);
+    ASSERT_TRUE(rig.feed().submits(4));
+    rig.feed().hostWaits(4);
+    EXPECT_THAT(rig.feed().waitForChain(4),
+                AllOf(HasSubstr("renderer's queue has frame 4, submitted to wait for host-to-renderer >= 7, which has "
+                                "reached 6"),
+                      HasSubstr("bridge thread would signal 7, but waits for the GL fence of value 7")));
+}
+
+TEST(HandOffFeed, TheChainNamesASignalThatWasNeverRecordedAndAFrameThatWasNeverSubmitted) {
+    Rig rig(SLUICE_TIMELINE_BRIDGED, 2);
+    rig.frames(3);
+    rig.feed().captureBegins(4);
+    rig.feed().captureEnds(4);
+    ASSERT_TRUE(rig.feed().submits(4));
+    EXPECT_THAT(rig.feed().waitForChain(4), HasSubstr("nobody has promised host-to-renderer 7"));
+    EXPECT_THAT(rig.feed().waitForChain(5), HasSubstr("frame 5 has not been submitted; the last one is 4"));
+}
+
+TEST(HandOffFeed, EventsOfOtherTracksAndUnknownImagesAreNothing) {
+    Rig rig(SLUICE_TIMELINE_BRIDGED, 2);
+    const std::uint64_t before = rig.ledger.eventsSeen();
+    SluiceTraceEvent event{};
+    event.struct_size = sizeof(event);
+    event.frame = 1;
+    event.track = SLUICE_TRACK_HOST_CPU;
+    event.kind = SLUICE_TRACE_SIGNAL;
+    rig.feed().trace(event);
+    EXPECT_EQ(rig.ledger.eventsSeen(), before);
+}
+
+}  // namespace
+}  // namespace sluice::ledger
