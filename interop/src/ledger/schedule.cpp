@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <iterator>
 #include <unordered_map>
 
 namespace sluice::ledger {
@@ -124,7 +125,8 @@ class Placer {
             if (const auto woken = waiting_.find(event); woken != waiting_.end()) {
                 const std::vector<std::uint32_t> actors = std::move(woken->second);
                 waiting_.erase(woken);
-                ready.insert(ready.end(), actors.begin(), actors.end());
+                // GCC 14 misreads the growth of a range insert here (-Wstringop-overflow).
+                std::copy(actors.begin(), actors.end(), std::back_inserter(ready));
             }
         }
     }
