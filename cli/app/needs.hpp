@@ -2,6 +2,8 @@
 // From a scene to what it asks of the renderer.
 #pragma once
 
+#include <cstdint>
+
 #include "sluice/plugin.h"
 #include "sluice/scene/scene.hpp"
 

@@ -2,6 +2,7 @@
 // The names of output files.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 

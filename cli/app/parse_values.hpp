@@ -2,6 +2,7 @@
 // The small languages of command-line values.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "sluice/host_gl/fault_plan.hpp"

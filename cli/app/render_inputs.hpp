@@ -2,6 +2,7 @@
 // Everything that a render reads, checked before anything is drawn or written.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 

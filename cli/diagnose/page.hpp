@@ -2,6 +2,7 @@
 // A diagnosis as one HTML file that needs nothing else.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "diagnose/diagnosis.hpp"

@@ -2,6 +2,7 @@
 // The values of a PLY file, one at a time, from text lines or from little-endian bytes, behind one face.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 #include "failure.hpp"

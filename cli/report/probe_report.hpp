@@ -2,6 +2,7 @@
 // What a machine's GL and Vulkan can share, as tables and as JSON.
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>

@@ -3,6 +3,7 @@
 // from specifications and issue reports, and stand for the shapes that negotiation has to tell apart.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "sluice/plugin.h"

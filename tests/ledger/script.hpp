@@ -2,6 +2,7 @@
 // Short programs for the ledger: a small cast with fixed names, and a verb for each event.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

@@ -2,6 +2,7 @@
 // What the ledger remembers of actors, sync objects, resources and descriptors.
 #pragma once
 
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <optional>

@@ -2,6 +2,7 @@
 // The ledger's inside, split over files by subject.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <tuple>
 

@@ -5,6 +5,7 @@
 #include <volk.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>

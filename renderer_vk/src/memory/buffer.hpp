@@ -5,6 +5,7 @@
 #include <volk.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "device/device.hpp"

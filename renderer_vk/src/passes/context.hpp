@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "frame/pass_context.hpp"
 #include "memory/buffer.hpp"

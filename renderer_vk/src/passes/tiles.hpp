@@ -2,6 +2,8 @@
 // Lists of the tiles that have fluid, for everything after the splat of depth, and the clearing of what lies outside.
 #pragma once
 
+#include <cstdint>
+
 #include "passes/context.hpp"
 #include "passes/pipeline.hpp"
 

@@ -2,6 +2,7 @@
 // The ledger while the program runs: any thread may write to it, and what it is told can go to a log as well.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
