@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // One ordering fault each, made on purpose between the real drivers: what the ledger says, what the pixels say, and
 // that the host's frame goes on.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -36,7 +37,21 @@ std::string_view nameOf(FaultKind kind) {
     return found->first;
 }
 
-class OrderingFault : public LedgerTest, public ::testing::WithParamInterface<std::tuple<Case, SluiceTimelineKind>> {};
+class OrderingFault : public LedgerTest, public ::testing::WithParamInterface<std::tuple<Case, SluiceTimelineKind>> {
+  protected:
+    /// A row of the table in docs/results/ledger.md.
+    void printRow(FaultKind kind, SluiceDirection direction, SluiceTimelineKind timeline, std::uint32_t sets) const {
+        std::string ids;
+        for (const auto& [id, count] : found()) {
+            ids += (ids.empty() ? "`" : ", `") + id + "`";
+        }
+        const bool by_pixels = stale_ + torn_ > 0;
+        const char* by = ids.empty() ? (by_pixels ? "pixels" : "neither") : by_pixels ? "both" : "ledger";
+        fmt::print("| {} | {} | {} | {} | {} | {} | {} stale, {} torn | {} |\n", nameOf(kind),
+                   direction == SLUICE_HOST_TO_RENDERER ? "to renderer" : "to host", toString(timeline), sets, by,
+                   ids.empty() ? "-" : ids, stale_, torn_, without_fluid_);
+    }
+};
 
 TEST_P(OrderingFault, IsFound) {
     const auto& [fault, timeline] = GetParam();
@@ -47,15 +62,7 @@ TEST_P(OrderingFault, IsFound) {
     EXPECT_EQ(fresh_ + stale_ + torn_ + without_fluid_, kFrames);
     finish();
     complaints_.clear();
-    std::string ids;
-    for (const auto& [id, count] : found()) {
-        ids += (ids.empty() ? "" : ", ") + id;
-    }
-    std::printf(
-        "| %s | %s | %s | %s | %llu stale, %llu torn, %llu without fluid |\n", std::string(nameOf(fault.kind)).c_str(),
-        fault.direction == SLUICE_HOST_TO_RENDERER ? "to renderer" : "to host", std::string(toString(timeline)).c_str(),
-        ids.empty() ? "nothing" : ids.c_str(), static_cast<unsigned long long>(stale_),
-        static_cast<unsigned long long>(torn_), static_cast<unsigned long long>(without_fluid_));
+    printRow(fault.kind, fault.direction, timeline, fault.sets);
     const std::vector<std::string>& expected = timeline == SLUICE_TIMELINE_FINISH ? fault.finish : fault.bridged;
     for (const std::string& id : expected) {
         EXPECT_THAT(found(), ::testing::Contains(::testing::Key(id)));

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// render --ledger, --ledger-log and --fault: what the user sees.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "app/parse_values.hpp"
+#include "program.hpp"
+
+namespace sluice::test {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+
+TEST(ParseFault, KnowsEveryKindItsDirectionAndItsValue) {
+    for (const auto& [name, kind] : host::kFaultNames) {
+        const auto plan = cli::parseFault(std::string(name) + "@5");
+        ASSERT_TRUE(plan) << plan.error().message();
+        EXPECT_EQ(plan.value().kind, kind);
+        EXPECT_EQ(plan.value().frame, 5U);
+        const bool about_waits = kind == host::FaultKind::SkipWait || kind == host::FaultKind::EarlyReuse;
+        EXPECT_EQ(plan.value().direction, about_waits ? SLUICE_RENDERER_TO_HOST : SLUICE_HOST_TO_RENDERER);
+    }
+    EXPECT_EQ(cli::parseFault("delay/to-host@2=250").value().value, 250U);
+    EXPECT_EQ(cli::parseFault("delay/to-host@2=250").value().direction, SLUICE_RENDERER_TO_HOST);
+    EXPECT_EQ(cli::parseFault("skip-wait/to-renderer@2").value().direction, SLUICE_HOST_TO_RENDERER);
+}
+
+TEST(ParseFault, RefusesWhatIsNoFault) {
+    for (const char* text :
+         {"", "drop", "@5", "drop@", "drop@0", "drop@-1", "drop@5=", "drop@5=x", "lose@5", "drop/@5", "drop/to-gl@5",
+          "swap/to-host@5", "duplicate/to-host@5", "early-reuse/to-renderer@5", "=3@5", "drop=3@5"}) {
+        EXPECT_FALSE(cli::parseFault(text)) << text;
+    }
+}
+
+TEST(ParseDeadline, IsSecondsWithinReason) {
+    EXPECT_EQ(cli::parseDeadline("0.5").value(), 0.5);
+    for (const char* text : {"", "0", "-1", "nan", "inf", "3601", "1s"}) {
+        EXPECT_FALSE(cli::parseDeadline(text)) << text;
+    }
+}
+
+class LedgerOption : public ProgramTest {
+  protected:
+    void SetUp() override {
+        ProgramTest::SetUp();
+        writeParticles("p.pos", 4);
+        writeScene("s.json", "p.pos");
+    }
+};
+
+TEST_F(LedgerOption, CleanFramesEndWithOneLineAndTheLogIsClean) {
+    const Outcome outcome = run("render s.json -o a_####.png --frames 1..4 --ledger-log a.log");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("ledger: "));
+    EXPECT_THAT(outcome.out, HasSubstr(" events, no finding\n"));
+    const Outcome diagnosed = run("diagnose a.log");
+    EXPECT_EQ(diagnosed.code, 0) << diagnosed.out << diagnosed.err;
+}
+
+TEST_F(LedgerOption, WithoutItTheSummaryHasNone) {
+    const Outcome outcome = run("render s.json -o a.png --json");
+    EXPECT_TRUE(nlohmann::json::parse(outcome.out).at("ledger").is_null());
+}
+
+TEST_F(LedgerOption, ASkippedWaitIsInTheJsonAndTheExitCodeStays) {
+    const Outcome outcome =
+        run("render s.json -o a_####.png --frames 1..4 --image-sets 1 --ledger --fault skip-wait@2 --json");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    const auto ledger = nlohmann::json::parse(outcome.out).at("ledger");
+    std::vector<std::string> ids;
+    for (const auto& finding : ledger.at("findings")) {
+        ids.push_back(finding.at("id"));
+        EXPECT_FALSE(finding.at("remedy").get<std::string>().empty());
+    }
+    EXPECT_THAT(ids, Contains("race-write-after-write"));
+    EXPECT_GT(ledger.at("events"), 50);
+}
+
+TEST_F(LedgerOption, ADroppedSignalCostsOneFrameItsFluidAndTheLogTellsWhoWaitsForWhom) {
+    const Outcome outcome = run(
+        "render s.json -o a_####.png --frames 1..5 --timeline bridged --ledger --fault drop@2 --deadline 1.5 --json");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("watchdog: the host has waited 1.5"));
+    EXPECT_THAT(outcome.err, HasSubstr("nobody has promised host-to-renderer 3: its signal was never recorded"));
+    const auto frames = nlohmann::json::parse(outcome.out).at("frames");
+    EXPECT_EQ(frames.at("written"), 5);
+    EXPECT_EQ(frames.at("with_fluid"), 4);
+}
+
+TEST_F(LedgerOption, ALogThatCannotBeWrittenIsSaidBeforeAnyWork) {
+    EXPECT_EQ(run("render s.json -o a.png --ledger-log p.pos").code, 1) << "an input";
+    EXPECT_EQ(run("render s.json -o a.png --ledger-log s.json/a.log").code, 4);
+    EXPECT_THAT(files(), ::testing::ElementsAre("p.pos", "s.json"));
+}
+
+}  // namespace
+}  // namespace sluice::test
