@@ -17,6 +17,7 @@
 #include "app/ledger_commands.hpp"
 #include "app/log.hpp"
 #include "app/parse_values.hpp"
+#include "app/stress_command.hpp"
 
 namespace sluice::cli {
 namespace {
@@ -80,6 +81,7 @@ struct Line {
     GenerateOptions generate;
     ConvertOptions convert;
     LedgerCommands ledger;
+    stress::Options stress;
     int verbosity = 0;
     std::function<int()> run;
 };
@@ -237,6 +239,7 @@ int parseAndRun(int argc, const char* const* argv) {
     addGenerate(line);
     addConvert(line);
     addLedgerCommands(line.app, line.ledger, line.run);
+    addStressCommand(line.app, line.stress, line.run);
     for (CLI::App* command : line.app.get_subcommands(nullptr)) {
         command->group("Commands");
     }

@@ -29,12 +29,15 @@ class BridgedTimeline final : public HostTimeline {
             return *error;
         }
         const std::uint64_t begin = traceClock(deps_.trace);
+        // Before the fence: Mesa (seen with 22.3.6) keeps the last vertices of immediate mode back until something
+        // flushes them, glFenceSync does not, and the fence would then arrive ahead of what it was put behind.
+        glFlush();
         const GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
         if (fence == nullptr) {
             return Error{SLUICE_ERROR_DEVICE_LOST, "bridged timeline", "glFenceSync returned no fence",
                          "the GL context may be lost"};
         }
-        // The flush is this thread's: glClientWaitSync on another context cannot flush the commands of this one.
+        // After it too, and by this thread: glClientWaitSync on another context cannot flush the commands of this one.
         glFlush();
         if (deps_.feed != nullptr) {
             deps_.feed->fencePromised(value);
