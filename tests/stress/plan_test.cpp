@@ -19,6 +19,7 @@ std::vector<Combination> everything() {
 std::vector<Epoch> epochsOf(const Combination& one, std::uint64_t seed, int count) {
     Planner planner(one, seed);
     std::vector<Epoch> epochs;
+    epochs.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) {
         epochs.push_back(planner.next());
     }

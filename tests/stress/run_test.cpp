@@ -2,6 +2,8 @@
 // The stress test itself, on both APIs: clean runs are clean, and each fault is seen by whom it must be seen.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "stress/plan.hpp"
 #include "stress/run.hpp"
 
@@ -19,6 +21,14 @@ std::vector<Combination> drivable(const Options& options) {
     std::erase_if(
         runs, [](const Combination& one) { return one.backend == Backend::Native || one.backend == Backend::Binary; });
     return runs;
+}
+
+/// GoogleTest wants words without hyphens.
+template <typename T>
+std::string wordOf(const ::testing::TestParamInfo<T>& info) {
+    std::string word(toString(info.param));
+    std::replace(word.begin(), word.end(), '-', '_');
+    return word;
 }
 
 std::string describe(const Row& row) {
@@ -47,7 +57,8 @@ TEST_P(EveryPattern, IsCleanOverEveryBackendResourceAndTopology) {
 INSTANTIATE_TEST_SUITE_P(Stress, EveryPattern,
                          ::testing::Values(Pattern::GlToVk, Pattern::VkToGl, Pattern::PingPong, Pattern::Ring,
                                            Pattern::FanOut, Pattern::HostInTheMiddle, Pattern::WaitBeforeSignal,
-                                           Pattern::ResizeStorm, Pattern::CreateDestroyStorm));
+                                           Pattern::ResizeStorm, Pattern::CreateDestroyStorm),
+                         wordOf<Pattern>);
 
 class EveryFault : public ::testing::TestWithParam<Fault> {};
 
@@ -71,7 +82,8 @@ TEST_P(EveryFault, IsSeenByTheLedgerInEveryPattern) {
 
 INSTANTIATE_TEST_SUITE_P(Stress, EveryFault,
                          ::testing::Values(Fault::Drop, Fault::Delay, Fault::Duplicate, Fault::SkipWait,
-                                           Fault::WrongValue, Fault::EarlyReuse));
+                                           Fault::WrongValue, Fault::EarlyReuse),
+                         wordOf<Fault>);
 
 TEST(Pixels, SeeAReadThatDoesNotWait) {
     // A race is lost only sometimes: enough tries, no rate.
