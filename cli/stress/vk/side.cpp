@@ -13,6 +13,7 @@
 #include "device/structs.hpp"
 #include "memory/buffer.hpp"
 #include "memory/image.hpp"
+#include "stress/vk/extra_timeline.hpp"
 #include "stress/vk/kernel.hpp"
 #include "stress/vk/shared_buffer.hpp"
 #include "sync/binary_pool.hpp"
@@ -36,37 +37,6 @@ SluiceFormat sharedFormat(Resource resource) {
            : resource == Resource::D32F ? SLUICE_FORMAT_D32F
                                         : SLUICE_FORMAT_R32F;
 }
-
-/// A timeline that the renderer's own code knows nothing of.
-class ExtraTimeline {
-  public:
-    explicit ExtraTimeline(const vk::Device& device, VkSemaphore semaphore) : device_(device), semaphore_(semaphore) {}
-    ExtraTimeline(const ExtraTimeline&) = delete;
-    ExtraTimeline& operator=(const ExtraTimeline&) = delete;
-    ~ExtraTimeline() { device_.fn.vkDestroySemaphore(device_.handle, semaphore_, nullptr); }
-
-    [[nodiscard]] Status signal(std::uint64_t value) const {
-        auto info = vkStruct<VkSemaphoreSignalInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO);
-        info.semaphore = semaphore_;
-        info.value = value;
-        const VkResult result = device_.fn.vkSignalSemaphore(device_.handle, &info);
-        return result == VK_SUCCESS ? Status{} : Status{vulkanError(result, "vkSignalSemaphore of the relay")};
-    }
-    [[nodiscard]] SluiceResult wait(std::uint64_t value, std::uint64_t timeout_ns) const {
-        auto info = vkStruct<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
-        info.semaphoreCount = 1;
-        info.pSemaphores = &semaphore_;
-        info.pValues = &value;
-        const VkResult result = device_.fn.vkWaitSemaphores(device_.handle, &info, timeout_ns);
-        return result == VK_SUCCESS   ? SLUICE_OK
-               : result == VK_TIMEOUT ? SLUICE_TIMEOUT
-                                      : vulkanError(result, "vkWaitSemaphores of the relay").code;
-    }
-
-  private:
-    const vk::Device& device_;
-    VkSemaphore semaphore_;
-};
 
 }  // namespace
 
