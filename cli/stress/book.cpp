@@ -184,8 +184,7 @@ Status Book::writeLog(const std::string& path) const {
             log.record(line.event);
         }
     }
-    log.flush();
-    return log.status();
+    return log.close();
 }
 
 }  // namespace sluice::stress

@@ -2,8 +2,10 @@
 #include "log_bytes.hpp"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -31,6 +33,16 @@ Bytes TemporaryFile::bytes() const {
     const std::vector<char> characters{std::istreambuf_iterator<char>(file), {}};
     const auto view = std::as_bytes(std::span(characters));
     return {view.begin(), view.end()};
+}
+
+FullDisk::FullDisk(std::size_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    EXPECT_EQ(getrlimit(RLIMIT_FSIZE, &before_), 0);
+    const rlimit limit{bytes, before_.rlim_max};
+    EXPECT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
+}
+FullDisk::~FullDisk() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
 }
 
 Bytes written(const std::function<void(ledger::LogWriter&)>& fill) {

@@ -2,6 +2,8 @@
 // Small logs, and their bytes.
 #pragma once
 
+#include <sys/resource.h>
+
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -27,6 +29,19 @@ class TemporaryFile {
 
   private:
     std::string path_;
+};
+
+/// While it lives no file of this process grows beyond `bytes`: a write fails as on a full disk (EFBIG).
+class FullDisk {
+  public:
+    explicit FullDisk(std::size_t bytes);
+    FullDisk(const FullDisk&) = delete;
+    FullDisk& operator=(const FullDisk&) = delete;
+    ~FullDisk();
+
+  private:
+    rlimit before_{};
+    void (*handler_)(int);
 };
 
 /// What a writer that `fill` was given leaves in its file.

@@ -83,6 +83,31 @@ TEST(LedgerLog, ALongLogCrossesManyBuffersWhole) {
     EXPECT_EQ(summary.value().events, kEvents);
 }
 
+TEST(LedgerLog, ADiskThatIsFullAtTheLastMarkIsToldByClose) {
+    const TemporaryFile file;
+    auto writer = LogWriter::create(file.path());
+    ASSERT_TRUE(writer.ok());
+    writer.value()->record(event(EventKind::Signal, 0, 0, 1));
+    const FullDisk disk(16 + 8 + 48);  // header and one event: no room for the mark
+    writer.value()->flush();
+    EXPECT_TRUE(writer.value()->status().ok());
+    const Status closed = writer.value()->close();
+    ASSERT_FALSE(closed.ok());
+    EXPECT_THAT(closed.error().message(), HasSubstr(file.path() + "': cannot write it: File too large"));
+    EXPECT_EQ(told(file.bytes()).back(), "end: truncated");
+}
+
+TEST(LedgerLog, WhatComesAfterCloseIsDropped) {
+    const TemporaryFile file;
+    auto writer = LogWriter::create(file.path());
+    ASSERT_TRUE(writer.ok());
+    EXPECT_TRUE(writer.value()->close().ok());
+    writer.value()->record(event(EventKind::Signal, 0, 0, 1));
+    writer.value()->flush();
+    EXPECT_TRUE(writer.value()->close().ok());
+    EXPECT_THAT(told(file.bytes()), ElementsAre("end: closed"));
+}
+
 TEST(LedgerLog, NamesAreCutBetweenTwoCharacters) {
     std::string name(1023, 'n');
     name += "\xC3\xA9";  // the cut would fall inside it

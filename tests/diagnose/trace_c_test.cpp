@@ -74,6 +74,15 @@ TEST(SluiceTrace, OpeningSaysWhyItFailed) {
     EXPECT_EQ(sluice_trace_open(nullptr, nullptr, 10), nullptr);
 }
 
+TEST(SluiceTrace, ClosingSaysThatTheMarkDidNotFit) {
+    const TemporaryFile file;
+    SluiceTraceLog* log = sluice_trace_open(file.path().c_str(), nullptr, 0);
+    ASSERT_NE(log, nullptr);
+    const FullDisk disk(16);  // the header alone
+    EXPECT_EQ(sluice_trace_status(log, nullptr, 0), 0);
+    EXPECT_EQ(sluice_trace_close(log), -1);
+}
+
 TEST(SluiceTrace, ActorsAreAsManyAsALogCanHold) {
     const TemporaryFile file;
     SluiceTraceLog* log = sluice_trace_open(file.path().c_str(), nullptr, 0);

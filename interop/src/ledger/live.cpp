@@ -68,8 +68,7 @@ Status LiveLedger::finish(End end) {
     if (!log_) {
         return {};
     }
-    log_->flush();
-    Status status = log_->status();
+    Status status = log_->close();
     log_.reset();
     return status;
 }

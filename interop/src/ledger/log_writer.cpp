@@ -66,8 +66,11 @@ struct LogWriter::State {
         buffer.clear();
         open_chunk = 0;
     }
-    /// Makes room; false, and counted, when the log has failed before.
+    /// Makes room; false when the log is closed, and false, and counted, when it has failed before.
     bool room(std::size_t bytes) {
+        if (!file.valid()) {
+            return false;
+        }
         if (failed == 0 && buffer.size() + bytes > kBufferBytes) {
             writeOut();
         }
@@ -75,6 +78,29 @@ struct LogWriter::State {
             ++dropped;
         }
         return failed == 0;
+    }
+    void end() {
+        if (!file.valid()) {
+            return;
+        }
+        writeOut();
+        // Not after a failure: the last chunk may be cut, and the log did not end as it was meant to.
+        if (failed == 0) {
+            chunk(ChunkType::Close, 0);
+            writeOut();
+        }
+        // Some file systems tell only here that there was no room.
+        if (::close(file.release()) != 0 && failed == 0) {
+            failed = errno;
+        }
+    }
+    [[nodiscard]] Status told() const {
+        if (failed == 0) {
+            return {};
+        }
+        Error error = fault(path, "cannot write it", failed);
+        error.detail += "; " + std::to_string(dropped) + " records dropped since";
+        return error;
     }
     void append(const void* from, std::size_t bytes) {
         const auto* first = static_cast<const std::byte*>(from);
@@ -114,11 +140,13 @@ Result<std::unique_ptr<LogWriter>> LogWriter::create(const std::string& path) {
 
 LogWriter::~LogWriter() {
     const std::scoped_lock lock(state_->mutex);
-    // Not after a failure: the last chunk may be cut, and the log did not end as it was meant to.
-    if (state_->room(kChunkHeaderBytes)) {
-        state_->chunk(ChunkType::Close, 0);
-        state_->writeOut();
-    }
+    state_->end();
+}
+
+Status LogWriter::close() {
+    const std::scoped_lock lock(state_->mutex);
+    state_->end();
+    return state_->told();
 }
 
 void LogWriter::declareActor(ActorId id, ActorKind kind, std::string_view name) {
@@ -192,17 +220,14 @@ void LogWriter::record(Event event) {
 
 void LogWriter::flush() {
     const std::scoped_lock lock(state_->mutex);
-    state_->writeOut();
+    if (state_->file.valid()) {
+        state_->writeOut();
+    }
 }
 
 Status LogWriter::status() const {
     const std::scoped_lock lock(state_->mutex);
-    if (state_->failed == 0) {
-        return {};
-    }
-    Error error = fault(state_->path, "cannot write it", state_->failed);
-    error.detail += "; " + std::to_string(state_->dropped) + " records dropped since";
-    return error;
+    return state_->told();
 }
 
 }  // namespace sluice::ledger

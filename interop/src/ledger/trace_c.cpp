@@ -27,7 +27,24 @@ static_assert(SLUICE_TRACE_TORN == static_cast<int>(Verdict::Torn));
 static_assert(SLUICE_TRACE_LISTED_ONLY == kListedOnly);
 static_assert(sizeof(SluiceTraceMemory) == sizeof(MemoryFacts));
 
-void tell(const std::string& sentence, char* why, std::size_t size) {
+/// Runs `call`. What it throws (no memory, a mutex that cannot be locked) ends here: the engine goes on.
+template <typename Call, typename Answer>
+Answer guard(Answer otherwise, const Call& call) noexcept {
+    try {
+        return call();
+    } catch (...) {
+        return otherwise;
+    }
+}
+template <typename Call>
+void guard(const Call& call) noexcept {
+    try {
+        call();
+    } catch (...) {  // the record is lost
+    }
+}
+
+void tell(std::string_view sentence, char* why, std::size_t size) {
     if (why != nullptr && size > 0) {
         const std::size_t length = std::min(sentence.size(), size - 1);
         std::memcpy(why, sentence.data(), length);
@@ -75,10 +92,7 @@ void put(SluiceTraceLog* log, EventKind kind, std::uint32_t actor, std::uint32_t
     event.value = value;
     event.time_ns = began_ns == 0 ? now : std::min(began_ns, now);
     event.duration_ns = now - event.time_ns;
-    try {
-        log->writer->record(event);
-    } catch (...) {  // a mutex that cannot be locked: the record is lost, the engine goes on
-    }
+    guard([&] { log->writer->record(event); });
 }
 
 void putObject(SluiceTraceLog* log, EventKind kind, std::uint32_t actor, std::uint32_t object, std::uint64_t value,
@@ -99,12 +113,10 @@ void putMemory(SluiceTraceLog* log, EventKind kind, std::uint32_t actor, std::ui
     if (log == nullptr || facts == nullptr || !isActor(actor) || !isObject(resource)) {
         return;
     }
-    try {
+    guard([&] {
         log->writer->memoryFacts(resource, std::bit_cast<MemoryFacts>(*facts));
-    } catch (...) {
-        return;
-    }
-    put(log, kind, actor, resource, 0);
+        put(log, kind, actor, resource, 0);
+    });
 }
 
 bool isSyncKind(SluiceTraceSyncKind kind) {
@@ -116,7 +128,9 @@ bool isSyncKind(SluiceTraceSyncKind kind) {
 extern "C" {
 
 SluiceTraceLog* sluice_trace_open(const char* path, char* why, size_t why_size) {
-    try {
+    // What there is to say when it cannot even be said for want of memory.
+    tell("sluice_trace_open: not enough memory", why, why_size);
+    return guard(static_cast<SluiceTraceLog*>(nullptr), [&]() -> SluiceTraceLog* {
         if (path == nullptr) {
             tell("sluice_trace_open: the path is NULL (give the path of a file to write)", why, why_size);
             return nullptr;
@@ -128,26 +142,22 @@ SluiceTraceLog* sluice_trace_open(const char* path, char* why, size_t why_size) 
         }
         auto log = std::make_unique<SluiceTraceLog>();
         log->writer = std::move(writer).value();
+        tell("", why, why_size);
         return log.release();
-    } catch (...) {
-        tell("sluice_trace_open: not enough memory", why, why_size);
-        return nullptr;
-    }
+    });
 }
 
 int sluice_trace_close(SluiceTraceLog* log) {
     if (log == nullptr) {
         return -1;
     }
-    sluice_trace_flush(log);
-    const int status = sluice_trace_status(log, nullptr, 0);
-    delete log;
-    return status;
+    const std::unique_ptr<SluiceTraceLog> owned(log);
+    return guard(-1, [&] { return owned->writer->close().ok() ? 0 : -1; });
 }
 
 void sluice_trace_flush(SluiceTraceLog* log) {
     if (log != nullptr) {
-        log->writer->flush();
+        guard([&] { log->writer->flush(); });
     }
 }
 
@@ -156,14 +166,12 @@ int sluice_trace_status(const SluiceTraceLog* log, char* why, size_t why_size) {
         tell("no log is open", why, why_size);
         return -1;
     }
-    try {
+    tell("not enough memory", why, why_size);
+    return guard(-1, [&] {
         const sluice::Status status = log->writer->status();
         tell(status ? "" : status.error().message(), why, why_size);
         return status ? 0 : -1;
-    } catch (...) {
-        tell("not enough memory", why, why_size);
-        return -1;
-    }
+    });
 }
 
 uint64_t sluice_trace_now(void) {
@@ -178,7 +186,7 @@ uint32_t sluice_trace_actor(SluiceTraceLog* log, SluiceTraceActorKind kind, cons
     }
     const std::uint32_t id = take(log->actors, kMaxActors);
     if (id != SLUICE_TRACE_NONE) {
-        log->writer->declareActor(static_cast<ActorId>(id), static_cast<ActorKind>(kind), text(name));
+        guard([&] { log->writer->declareActor(static_cast<ActorId>(id), static_cast<ActorKind>(kind), text(name)); });
     }
     return id;
 }
@@ -196,8 +204,10 @@ uint32_t sluice_trace_sync(SluiceTraceLog* log, SluiceTraceSyncKind kind, const 
 void sluice_trace_renew_sync(SluiceTraceLog* log, uint32_t sync, SluiceTraceSyncKind kind, const char* name,
                              uint64_t initial_value, uint32_t flags) {
     if (log != nullptr && isObject(sync) && isSyncKind(kind)) {
-        log->writer->declareSync(sync, static_cast<SyncKind>(kind), text(name), initial_value,
-                                 static_cast<std::uint16_t>(flags & kListedOnly));
+        guard([&] {
+            log->writer->declareSync(sync, static_cast<SyncKind>(kind), text(name), initial_value,
+                                     static_cast<std::uint16_t>(flags & kListedOnly));
+        });
     }
 }
 
@@ -207,7 +217,7 @@ uint32_t sluice_trace_resource(SluiceTraceLog* log, const char* name, uint32_t l
     }
     const std::uint32_t id = take(log->resources, kMaxObjects);
     if (id != SLUICE_TRACE_NONE) {
-        log->writer->declareResource(id, text(name), layout, owner(owner_id));
+        guard([&] { log->writer->declareResource(id, text(name), layout, owner(owner_id)); });
     }
     return id;
 }

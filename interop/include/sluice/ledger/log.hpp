@@ -44,7 +44,7 @@ class LogWriter {
     [[nodiscard]] static Result<std::unique_ptr<LogWriter>> create(const std::string& path);
     LogWriter(const LogWriter&) = delete;
     LogWriter& operator=(const LogWriter&) = delete;
-    /// Writes the close chunk and flushes.
+    /// As close(), but nobody hears of a failure.
     ~LogWriter();
 
     void declareActor(ActorId id, ActorKind kind, std::string_view name);
@@ -55,6 +55,9 @@ class LogWriter {
     void record(Event event);
     void flush();
     [[nodiscard]] Status status() const;
+    /// Writes what is buffered and the close chunk, and closes the file: the status after that. What comes later is
+    /// dropped.
+    Status close();
 
   private:
     LogWriter();
