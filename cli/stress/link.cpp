@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "sluice/trace.hpp"
 
@@ -51,7 +52,8 @@ bool Link::Post::ended() {
     return stop;
 }
 
-Link::Link(VkSide& vulkan, Book& book, bool relay) : vulkan_(vulkan), book_(book), relay_(relay) {
+Link::Link(VkSide& vulkan, std::shared_ptr<Book> book, bool relay)
+    : vulkan_(vulkan), book_(std::move(book)), relay_(relay) {
     api_.struct_size = sizeof(api_);
     api_.name = "stress";
     api_.timeline_signal = &Link::onSignal;
@@ -99,11 +101,11 @@ SluiceResult Link::onWait(SluiceRenderer* renderer, std::uint64_t value, std::ui
 
 SluiceResult Link::fromGl(std::uint64_t value) {
     const ledger::ActorId by = std::this_thread::get_id() == host_thread_ ? kHost : kBridge;
-    book_.fenceArrived(by, value);
+    book_->fenceArrived(by, value);
     if (!relay_) {
         return raise(by, value);
     }
-    book_.event(EventKind::Signal, by, kFromGl, value);
+    book_->event(EventKind::Signal, by, kFromGl, value);
     const Status status = vulkan_.relaySignal(RelayLeg::FromGl, value);
     return status ? SLUICE_OK : status.error().code;
 }
@@ -124,10 +126,10 @@ SluiceResult Link::raise(ledger::ActorId by, std::uint64_t value) {
         if (armed.fault == Fault::Delay) {
             std::this_thread::sleep_for(std::chrono::microseconds(armed.delay_us));
         }
-        book_.event(EventKind::Signal, by, kToRenderer, value);
+        book_->event(EventKind::Signal, by, kToRenderer, value);
         status = vulkan_.signal(value);
         if (armed.fault == Fault::Duplicate) {
-            book_.event(EventKind::Signal, by, kToRenderer, value);
+            book_->event(EventKind::Signal, by, kToRenderer, value);
             refused_ += vulkan_.signal(value) ? 0U : 1U;
         }
     }
@@ -144,13 +146,13 @@ SluiceResult Link::wait(std::uint64_t value, std::uint64_t timeout_ns) {
     const SluiceResult result =
         relay_ ? vulkan_.relayWait(RelayLeg::ToGl, value, timeout_ns) : vulkan_.wait(value, timeout_ns);
     if (result == SLUICE_OK) {
-        book_.event(EventKind::Wait, kHost, relay_ ? kToGl : kToHost, value, 0, 0, monotonicNanoseconds() - begin);
+        book_->event(EventKind::Wait, kHost, relay_ ? kToGl : kToHost, value, 0, 0, monotonicNanoseconds() - begin);
     }
     return result;
 }
 
 Status Link::rescue(std::uint64_t value) {
-    book_.event(EventKind::Signal, kHost, kToRenderer, value, 0, ledger::kForced);
+    book_->event(EventKind::Signal, kHost, kToRenderer, value, 0, ledger::kForced);
     return vulkan_.signal(value);
 }
 
@@ -160,7 +162,7 @@ bool Link::settled(std::uint64_t value, std::uint64_t timeout_ns) {
         return false;
     }
     lock.unlock();
-    book_.event(EventKind::Wait, kHost, kToRenderer, value);
+    book_->event(EventKind::Wait, kHost, kToRenderer, value);
     return true;
 }
 
@@ -171,7 +173,7 @@ void Link::relayOut() {
                 return;
             }
         }
-        book_.event(EventKind::Wait, kRelayOut, kFromGl, *value);
+        book_->event(EventKind::Wait, kRelayOut, kFromGl, *value);
         (void)raise(kRelayOut, *value);  // what fails here is missed by the queue, and told by the wait for it
     }
 }
@@ -183,8 +185,8 @@ void Link::relayBack() {
                 return;
             }
         }
-        book_.event(EventKind::Wait, kRelayBack, kToHost, *value);
-        book_.event(EventKind::Signal, kRelayBack, kToGl, *value);
+        book_->event(EventKind::Wait, kRelayBack, kToHost, *value);
+        book_->event(EventKind::Signal, kRelayBack, kToGl, *value);
         (void)vulkan_.relaySignal(RelayLeg::ToGl, *value);
     }
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -24,7 +25,8 @@ namespace sluice::stress {
 /// Pinned; dies after the host's timeline and before the Vulkan side's resources.
 class Link {
   public:
-    Link(VkSide& vulkan, Book& book, bool relay);
+    /// Keeps the book: a link that is abandoned with a stuck queue goes on writing into it.
+    Link(VkSide& vulkan, std::shared_ptr<Book> book, bool relay);
     Link(const Link&) = delete;
     Link& operator=(const Link&) = delete;
     ~Link();
@@ -74,7 +76,7 @@ class Link {
     void relayBack();
 
     VkSide& vulkan_;
-    Book& book_;
+    std::shared_ptr<Book> book_;
     SluiceRendererApi api_{};
     std::thread::id host_thread_ = std::this_thread::get_id();
     bool relay_;

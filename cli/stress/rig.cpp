@@ -28,7 +28,8 @@ SluiceTimelineKind kindOf(Backend backend) {
 
 }  // namespace
 
-Rig::Rig(const Combination& combination, const Shape& shape, Book& book) : combination_(combination), book_(book) {
+Rig::Rig(const Combination& combination, const Shape& shape, std::shared_ptr<Book> book)
+    : combination_(combination), book_(std::move(book)) {
     storage_.resource = combination.resource;
     storage_.slots.shape = shape;
 }
@@ -120,7 +121,7 @@ Status Rig::build(Rebuild rebuild, std::uint32_t width, std::uint32_t height) {
     if (Status status = share(); !status) {
         return status;
     }
-    book_.declare(storage_);
+    book_->declare(storage_);
     link_ = std::make_unique<Link>(*vulkan_, book_, storage_.slots.shape.relay);
     return gl_->makeTimeline(combination_.backend, combination_.topology, link_->api(), link_->renderer());
 }

@@ -17,14 +17,15 @@ namespace sluice::stress {
 /// Pinned. Used on one thread.
 class Rig {
   public:
-    Rig(const Combination& combination, const Shape& shape, Book& book);
+    Rig(const Combination& combination, const Shape& shape, std::shared_ptr<Book> book);
     Rig(const Rig&) = delete;
     Rig& operator=(const Rig&) = delete;
     ~Rig();
 
     /// Makes anew what `rebuild` says, both sides standing still. UNSUPPORTED says what the machine lacks.
     [[nodiscard]] Status build(Rebuild rebuild, std::uint32_t width, std::uint32_t height);
-    /// Gives up a queue that does not end: nothing is destroyed any more.
+    /// Gives up a queue that does not end: nothing is destroyed any more, the book neither, into which the bridge still
+    /// writes.
     void abandon();
 
     [[nodiscard]] GlSide& gl() { return *gl_; }
@@ -40,7 +41,7 @@ class Rig {
 
     Combination combination_;
     Storage storage_;
-    Book& book_;
+    std::shared_ptr<Book> book_;
     std::unique_ptr<GlSide> gl_;
     std::unique_ptr<VkSide> vulkan_;
     std::unique_ptr<Link> link_;

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "stress/book.hpp"
@@ -20,7 +21,7 @@ class Runner {
     Runner(const Combination& combination, std::uint64_t seed)
         : planner_(combination, seed),
           course_(combination.pattern, planner_.shape(), seedOf(combination, seed)),
-          rig_(combination, planner_.shape(), book_) {
+          rig_(combination, planner_.shape(), shared_book_) {
         row_.combination = combination;
     }
     Row run(const Limit& limit, const std::string& log, const std::function<bool()>& stop);
@@ -49,7 +50,8 @@ class Runner {
     [[nodiscard]] std::uint64_t handoffsPerRound() const { return course_.slots().shape.fan + 1U; }
 
     Row row_;
-    Book book_;
+    std::shared_ptr<Book> shared_book_ = std::make_shared<Book>();  // outlives this when the rig is abandoned
+    Book& book_ = *shared_book_;
     Planner planner_;
     Course course_;
     Rig rig_;

@@ -3,8 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <utility>
 
 #include "stress/plan.hpp"
+#include "stress/rig.hpp"
 #include "stress/run.hpp"
 
 namespace sluice::stress::test {
@@ -113,6 +117,30 @@ TEST(Stop, EndsARunInGoodOrder) {
     EXPECT_FALSE(row.failure) << describe(row);
     EXPECT_TRUE(row.interrupted);
     EXPECT_GT(row.handoffs, 0U);
+}
+
+/// What a bridge thread does after the run has given up on a stuck queue.
+int signalThroughAnAbandonedLink() {
+    const Combination one{Pattern::HostInTheMiddle, Backend::Bridged, Resource::R32F, Topology::BridgeThread,
+                          Fault::None};
+    auto book = std::make_shared<Book>();
+    const std::weak_ptr<Book> watched = book;
+    auto rig = std::make_unique<Rig>(one, Planner(one, kSeed).shape(), std::move(book));
+    if (!rig->build(Rebuild::Everything, 8, 8)) {
+        return 2;
+    }
+    Link& link = rig->link();
+    rig->abandon();
+    rig.reset();
+    if (watched.expired()) {
+        return 3;
+    }
+    return link.api().timeline_signal(link.renderer(), 1) == SLUICE_OK ? 0 : 4;
+}
+
+TEST(AbandonedRigDeathTest, LeavesTheBookToItsThreads) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(std::_Exit(signalThroughAnAbandonedLink()), ::testing::ExitedWithCode(0), "");
 }
 
 }  // namespace
