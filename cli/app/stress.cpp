@@ -9,6 +9,8 @@
 
 #include "app/exit_codes.hpp"
 #include "app/interrupt.hpp"
+#include "app/log.hpp"
+#include "app/output_folders.hpp"
 #include "app/stress_command.hpp"
 #include "report/stress_report.hpp"
 #include "stress/plan.hpp"
@@ -50,6 +52,13 @@ int stress(const stress::Options& options) {
     stress::Matrix matrix = std::move(meant).value();
     leaveOutUndrivable(matrix, options);
     watchForInterrupt();
+    OutputFolders folders;
+    if (!options.log.empty()) {
+        if (const Status status = folders.prepare(options.log); !status) {
+            logError(status.error());
+            return kExitInternal;
+        }
+    }
     std::string log = options.log.empty() ? fmt::format("stress-{}.sluicelog", options.seed) : options.log;
     std::vector<stress::Row> rows;
     bool stuck = false;

@@ -102,6 +102,7 @@ void addStressCommand(CLI::App& app, stress::Options& options, std::function<int
         "       the pixels or the ledger, and a mere delay by neither\n"
         "  1    the command line is wrong\n"
         "  3    it failed (the command that repeats it is printed), or cannot run here\n"
+        "  4    the file of --log cannot be written: nothing was run\n"
         "  130  interrupted\n");
     c.callback([&] { run = [&o] { return stress(o); }; });
 }

@@ -134,6 +134,8 @@ std::string failureText(const Row& row, std::uint64_t seed) {
     text += "  again: " + stress::commandLine(one, seed, std::max<std::uint64_t>(1, row.handoffs)) + "\n";
     if (!row.log.empty()) {
         text += fmt::format("  log:   {} (sluice diagnose {} reads it)\n", row.log, row.log);
+    } else if (!row.log_error.empty()) {
+        text += "  log:   not kept: " + row.log_error + "\n";
     }
     return text;
 }

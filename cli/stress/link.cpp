@@ -121,7 +121,7 @@ SluiceResult Link::raise(ledger::ActorId by, std::uint64_t value) {
     }
     Status status;
     if (armed.fault == Fault::Drop) {
-        ++dropped_;
+        dropped_ = value;
     } else {
         if (armed.fault == Fault::Delay) {
             std::this_thread::sleep_for(std::chrono::microseconds(armed.delay_us));
@@ -154,6 +154,11 @@ SluiceResult Link::wait(std::uint64_t value, std::uint64_t timeout_ns) {
 Status Link::rescue(std::uint64_t value) {
     book_->event(EventKind::Signal, kHost, kToRenderer, value, 0, ledger::kForced);
     return vulkan_.signal(value);
+}
+
+std::uint64_t Link::past() {
+    const std::lock_guard guard(mutex_);
+    return raised_;
 }
 
 bool Link::settled(std::uint64_t value, std::uint64_t timeout_ns) {

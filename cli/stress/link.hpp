@@ -45,7 +45,10 @@ class Link {
     /// Waits until the signal of `value` has been given or dropped. False after the timeout.
     [[nodiscard]] bool settled(std::uint64_t value, std::uint64_t timeout_ns);
 
+    /// The last value whose signal was dropped.
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
+    /// Up to here every signal has been given or dropped.
+    [[nodiscard]] std::uint64_t past();
     /// Signals that the renderer's own guard refused: the second ones of duplicates.
     [[nodiscard]] std::uint64_t refused() const { return refused_; }
 

@@ -11,9 +11,10 @@ namespace sluice::stress {
 namespace {
 
 constexpr std::uint32_t kRoundsBetweenChecks = 250;
-constexpr std::uint32_t kStormRounds = 12;          ///< between two storms, at most
-constexpr std::uint32_t kStormSide = 96;            ///< texels; tiny on purpose, so that edges of tiles are everywhere
-constexpr std::uint64_t kEpochsPerEverything = 16;  ///< of a create-destroy-storm, whose other epochs keep the devices
+constexpr std::uint32_t kStormRounds = 12;  ///< between two storms, at most
+constexpr std::uint32_t kStormSide = 96;    ///< texels; tiny on purpose, so that edges of tiles are everywhere
+/// Of a create-destroy-storm, whose other epochs keep the devices: three times in as few as 200 hand-offs.
+constexpr std::uint64_t kEpochsPerEverything = 4;
 constexpr std::uint32_t kLeastDelay = 500, kMostDelay = 20'000;  ///< microseconds
 
 template <typename T, std::size_t N>

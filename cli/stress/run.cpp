@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "stress/runner.hpp"
+#include "stress/verdict.hpp"
 
 namespace sluice::stress {
 
@@ -16,8 +17,6 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr std::uint64_t kDrainNs = 2'000'000'000;
-/// Descriptors that a driver may open along the way; a leak of one per rebuild is soon more.
-constexpr std::uint64_t kDescriptorSlack = 4;
 
 }  // namespace
 
@@ -63,7 +62,7 @@ Status Runner::check() {
     return {};
 }
 
-void Runner::judge(std::uint64_t bad_before, std::uint64_t troubles_before) {
+void Runner::judge(std::uint64_t bad_before, std::uint64_t troubles_before, std::uint64_t refused) {
     const bool pixels = row_.bad_texels > bad_before;
     const bool ledger = book_.troubles() > troubles_before;
     if (fault_is_due_) {
@@ -73,17 +72,10 @@ void Runner::judge(std::uint64_t bad_before, std::uint64_t troubles_before) {
         row_.by_both += pixels && ledger ? 1U : 0U;
         row_.unseen += pixels || ledger ? 0U : 1U;
     }
-    if (row_.combination.fault == Fault::None || row_.combination.fault == Fault::Delay) {
-        if (pixels || ledger) {
-            row_.failure = fmt::format("{} wrong texels, {} findings of the ledger{}", row_.bad_texels - bad_before,
-                                       book_.troubles() - troubles_before,
-                                       pixels && !ledger   ? ": in order by the model, so suspect the driver"
-                                       : ledger && !pixels ? ": the contents were right by luck"
-                                                           : "");
-        }
-    } else if (fault_is_due_ && !pixels && !ledger) {
-        row_.failure = fmt::format("the {} in round {} of check {} was seen by nobody", toString(fault_.kind),
-                                   fault_.round, row_.checks);
+    row_.failure = whyFailed({row_.combination.fault, fault_is_due_, row_.bad_texels - bad_before,
+                              book_.troubles() - troubles_before, refused});
+    if (row_.failure && fault_is_due_) {
+        *row_.failure += fmt::format(" (in round {} of check {})", fault_.round, row_.checks);
     }
 }
 
@@ -94,8 +86,8 @@ Status Runner::epoch(const Epoch& epoch, std::uint64_t most_rounds, const std::f
             return status;
         }
         course_.rebuilt();
-        promised_ = rescued_ = last_gl_wait_ = last_vulkan_wait_ = 0;
-        countDescriptors();
+        promised_ = rescued_ = to_drop_ = last_gl_wait_ = last_vulkan_wait_ = 0;
+        countDescriptors(epoch.rebuild);
     } else if (epoch.fresh) {
         course_.restart();
     }
@@ -117,28 +109,38 @@ Status Runner::epoch(const Epoch& epoch, std::uint64_t most_rounds, const std::f
     if (status) {
         status = check();
     }
-    row_.refused += rig_.link().refused() - refused;
+    const std::uint64_t refused_here = rig_.link().refused() - refused;
+    row_.refused += refused_here;
     if (status) {
-        judge(bad, troubles);
+        judge(bad, troubles, refused_here);
     }
     return status;
 }
 
-void Runner::countDescriptors() {
-    last_descriptors_ = openDescriptors();
-    first_descriptors_ = first_descriptors_ == 0 ? last_descriptors_ : first_descriptors_;
+/// What drivers open once for the whole process is there after the second build; from then on not one may be added.
+void Runner::countDescriptors(Rebuild rebuild) {
+    const bool devices_too = row_.combination.pattern == Pattern::CreateDestroyStorm;
+    builds_ += rebuild == Rebuild::Everything || !devices_too ? 1U : 0U;
+    if (builds_ >= 2) {
+        last_descriptors_ = openDescriptors();
+        first_descriptors_ = first_descriptors_ == 0 ? last_descriptors_ : first_descriptors_;
+    }
 }
 
-void Runner::fail(const Error& error, const std::string& log) {
+void Runner::fail(const Error& error) {
     row_.failure = error.message();
     if (rig_.built() && !rig_.vulkan().drain(0)) {
         // The signal that never came: given now, so that the queue ends.
         (void)rig_.link().rescue(std::max(course_.lastHost(), rescued_ + 1));
         row_.stuck = !rig_.vulkan().drain(kDrainNs);
     }
-    if (!log.empty() && rig_.built()) {
-        const Status written = book_.writeLog(log);
-        row_.log = written ? log : "";
+}
+
+void Runner::keepLog(const std::string& log) {
+    if (const Status written = book_.writeLog(log); written) {
+        row_.log = log;
+    } else {
+        row_.log_error = written.error().message();
     }
 }
 
@@ -158,9 +160,7 @@ Row Runner::run(const Limit& limit, const std::string& log, const std::function<
         // A fault is judged with the rounds after it, so that only an interrupt cuts them short.
         const Status status = epoch(next, most, next.fault.kind == Fault::None ? std::function<bool()>(ends) : stop);
         if (!status) {
-            fail(status.error(), log);
-        } else if (row_.failure && !log.empty()) {
-            row_.log = book_.writeLog(log) ? log : "";
+            fail(status.error());
         }
     }
     row_.interrupted = stop();
@@ -168,13 +168,16 @@ Row Runner::run(const Limit& limit, const std::string& log, const std::function<
     row_.seconds = elapsed();
     row_.findings = book_.troubles();
     row_.told = book_.told();
-    if (!row_.failure && last_descriptors_ > first_descriptors_ + kDescriptorSlack) {
-        row_.failure = fmt::format("{} descriptors were open after the first build, {} after the last",
+    if (!row_.failure && last_descriptors_ > first_descriptors_) {
+        row_.failure = fmt::format("{} descriptors were open after the second build, {} after the last",
                                    first_descriptors_, last_descriptors_);
     }
     const bool clean = row_.combination.fault == Fault::None;
     if (!row_.failure && clean && row_.findings > 0) {
         row_.failure = fmt::format("{} findings of the ledger at the end", row_.findings);
+    }
+    if (row_.failure && !log.empty() && rig_.built()) {
+        keepLog(log);
     }
     if (row_.stuck) {
         rig_.abandon();

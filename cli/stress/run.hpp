@@ -33,6 +33,7 @@ struct Row {
     std::optional<std::string> failure;  ///< why the row is no success
     std::vector<std::string> chain;      ///< who waited for whom when it hung
     std::string log;                     ///< where the ledger's log lies, if it was kept
+    std::string log_error;               ///< why it could not be kept
     bool refused_here = false;           ///< the machine or this program cannot do it: nothing was run
     bool stuck = false;                  ///< the queue never ended: the process must leave without tidying up
     bool interrupted = false;

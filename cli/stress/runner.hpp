@@ -8,6 +8,7 @@
 #include <string>
 
 #include "stress/book.hpp"
+#include "stress/loss.hpp"
 #include "stress/plan.hpp"
 #include "stress/rig.hpp"
 #include "stress/round.hpp"
@@ -32,13 +33,15 @@ class Runner {
     [[nodiscard]] Status glTurn(const Round& round);
     [[nodiscard]] Status glWait(const Round& round);
     [[nodiscard]] Status vulkanTurns(const Round& round);
+    [[nodiscard]] Signals signals();
     [[nodiscard]] Status wait(std::uint64_t value);
     [[nodiscard]] Status settle();
     [[nodiscard]] Status check();
-    void judge(std::uint64_t bad_before, std::uint64_t troubles_before);
+    void judge(std::uint64_t bad_before, std::uint64_t troubles_before, std::uint64_t refused);
     void touches(ledger::ActorId by, const Turn& turn);
-    void countDescriptors();
-    void fail(const Error& error, const std::string& log);
+    void countDescriptors(Rebuild rebuild);
+    void fail(const Error& error);
+    void keepLog(const std::string& log);
 
     [[nodiscard]] bool faultHere(const Round& round, Side side) const {
         return fault_.kind != Fault::None && fault_.side == side && round.number == fault_.round;
@@ -59,7 +62,9 @@ class Runner {
     PlannedFault fault_;
     std::uint64_t promised_ = 0;  // the last host-to-renderer value that OpenGL was to be followed by
     std::uint64_t rescued_ = 0;   // up to here signals were given in the place of dropped ones
+    std::uint64_t to_drop_ = 0;   // the last that was armed to be dropped
     std::uint64_t last_gl_wait_ = 0, last_vulkan_wait_ = 0;
+    std::uint64_t builds_ = 0;  // of everything that the pattern makes anew
     std::uint64_t first_descriptors_ = 0, last_descriptors_ = 0;
     bool fault_is_due_ = false;
 };

@@ -14,7 +14,7 @@ using ledger::EventKind;
 namespace {
 
 constexpr std::uint64_t kDeadlineNs = 10'000'000'000;   ///< of each hand-off
-constexpr std::uint64_t kDropDeadlineNs = 250'000'000;  ///< where a wait is meant to end in vain
+constexpr std::uint64_t kDropDeadlineNs = 250'000'000;  ///< of a wait for what a lost signal keeps back
 
 }  // namespace
 
@@ -30,31 +30,43 @@ void Runner::touches(ledger::ActorId by, const Turn& turn) {
     }
 }
 
-/// Waits for a renderer-to-host value as the host does. A drop that was planned ends the wait in vain; then the signal
-/// is given in its place, as a watchdog would.
+Signals Runner::signals() {
+    // First: all drops up to there have then been counted.
+    const std::uint64_t past = rig_.link().past();
+    return {promised_, past, to_drop_, rig_.link().dropped(), rescued_};
+}
+
+/// Waits for a renderer-to-host value as the host does. Only once a signal is really lost the wait ends early and in
+/// vain; then the signal is given in its place, as a watchdog would. However slow the machine, nothing else does that.
 Status Runner::wait(std::uint64_t value) {
-    const bool drops = fault_.kind == Fault::Drop;
-    const std::uint64_t begin = monotonicNanoseconds();
-    Status status = rig_.gl().timeline().wait(value, drops ? kDropDeadlineNs : kDeadlineNs, {});
-    if (status || status.error().code != SLUICE_TIMEOUT) {
-        return status;
-    }
-    book_.event(EventKind::Wait, kHost, course_.slots().shape.relay ? kToGl : kToHost, value, 0, ledger::kTimedOut,
-                monotonicNanoseconds() - begin);
-    if (drops && rig_.link().dropped() > 0 && rescued_ < promised_) {
+    std::uint64_t begin = monotonicNanoseconds();
+    for (;;) {
+        const Signals before = signals();
+        const bool lost = signalLost(before);
+        const Status status =
+            rig_.gl().timeline().wait(value, dropUnderWay(before) ? kDropDeadlineNs : kDeadlineNs, {});
+        if (status || status.error().code != SLUICE_TIMEOUT) {
+            return status;
+        }
+        const std::uint64_t waited = monotonicNanoseconds() - begin;
+        if (!lost && waited < kDeadlineNs) {
+            continue;
+        }
+        book_.event(EventKind::Wait, kHost, course_.slots().shape.relay ? kToGl : kToHost, value, 0, ledger::kTimedOut,
+                    waited);
+        if (!lost) {
+            row_.chain = book_.waitChain(kQueue);
+            return Error{SLUICE_TIMEOUT, fmt::format("hand-off {}", row_.handoffs),
+                         fmt::format("the host waited in vain for renderer-to-host value {} for {:.2f} s", value,
+                                     static_cast<double>(waited) * 1e-9),
+                         "the chain below says who waits for whom"};
+        }
         rescued_ = promised_;
         if (Status rescued = rig_.link().rescue(rescued_); !rescued) {
             return rescued;
         }
-        return rig_.gl().timeline().wait(value, kDeadlineNs, {});
+        begin = monotonicNanoseconds();
     }
-    Error error = status.error();
-    error.thing = fmt::format("hand-off {}", row_.handoffs);
-    error.detail = fmt::format("the host waited in vain for renderer-to-host value {} for {:.2f} s", value,
-                               static_cast<double>(drops ? kDropDeadlineNs : kDeadlineNs) * 1e-9);
-    error.remedy = "the chain below says who waits for whom";
-    row_.chain = book_.waitChain(kQueue);
-    return error;
 }
 
 Status Runner::glWait(const Round& round) {
@@ -85,6 +97,7 @@ Status Runner::glTurn(const Round& round) {
     const bool other = (fault_.kind == Fault::Delay || fault_.kind == Fault::Duplicate) && round.number == fault_.round;
     if (drop || other) {
         rig_.link().arm(fault_.kind, round.gl_signal, fault_.delay_us);
+        to_drop_ = drop ? round.gl_signal : to_drop_;
     }
     book_.fence(round.gl_signal);
     rig_.link().expectSignal(round.gl_signal);

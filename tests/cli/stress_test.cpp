@@ -70,6 +70,19 @@ TEST_F(Stress, JsonHoldsTheFaultsAndWhoSawThem) {
     EXPECT_THAT(document.at("left_out"), SizeIs(1));  // two-processes
 }
 
+TEST_F(Stress, ALogThatCannotBeWrittenEndsTheRunBeforeItBegins) {
+    const std::string words = "stress --pattern ring --resource R32F --handoffs 100 --log ";
+    ASSERT_EQ(run(words + "new/kept.sluicelog").code, 0);
+    EXPECT_THAT(files(), IsEmpty());  // not even the folder: nothing failed
+    write("file.txt", "");
+    for (const char* path : {"file.txt/kept.sluicelog", "."}) {
+        const Outcome outcome = run(words + path);
+        EXPECT_EQ(outcome.code, 4) << path;
+        EXPECT_THAT(outcome.out, IsEmpty());
+        EXPECT_THAT(outcome.err, HasSubstr(path));
+    }
+}
+
 TEST_F(Stress, AnInterruptEndsTheRunWithItsTable) {
     const Outcome outcome = run("stress --pattern ping-pong --resource R32F --backend bridged --seconds 500",
                                 "timeout --foreground --preserve-status --signal INT 3");

@@ -82,6 +82,25 @@ TEST(Plan, IsTheSameForTheSameSeedAndAnotherForAnother) {
     EXPECT_EQ(same, 0U);
 }
 
+TEST(Plan, MakesContextsAndDeviceAnewOftenEnoughToSeeALeak) {
+    for (const Combination& one : everything()) {
+        if (one.pattern != Pattern::CreateDestroyStorm || one.fault != Fault::None) {
+            continue;
+        }
+        for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+            Planner planner(one, seed);
+            int everything_anew = 0;
+            // Two hand-offs per round; a share of the 20000 that are run when nothing is said is 192.
+            for (std::uint64_t handoffs = 0; handoffs < 192;) {
+                const Epoch epoch = planner.next();
+                everything_anew += epoch.rebuild == Rebuild::Everything ? 1 : 0;
+                handoffs += std::uint64_t{2} * epoch.rounds;
+            }
+            EXPECT_GE(everything_anew, 3) << "seed " << seed;
+        }
+    }
+}
+
 RC_GTEST_PROP(Plan, KeepsItsBounds, (std::uint64_t seed)) {
     const auto all = everything();
     const Combination one = all[*rc::gen::inRange<std::size_t>(0, all.size())];

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 // The stress test itself, on both APIs: clean runs are clean, and each fault is seen by whom it must be seen.
+#include <fcntl.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <string>
 #include <utility>
 
+#include "sluice/fd.hpp"
 #include "stress/plan.hpp"
 #include "stress/rig.hpp"
 #include "stress/run.hpp"
@@ -117,6 +121,44 @@ TEST(Stop, EndsARunInGoodOrder) {
     EXPECT_FALSE(row.failure) << describe(row);
     EXPECT_TRUE(row.interrupted);
     EXPECT_GT(row.handoffs, 0U);
+}
+
+/// One descriptor is opened on the way, as a leak would, between the second build and the last.
+TEST(Descriptors, NotOneMayBeLeftOverAndTheLogIsKept) {
+    for (const Pattern pattern : {Pattern::ResizeStorm, Pattern::CreateDestroyStorm}) {
+        const Combination one{pattern, Backend::Bridged, Resource::R32F, Topology::BridgeThread, Fault::None};
+        const std::string log =
+            ::testing::TempDir() + "descriptors-" + std::to_string(static_cast<int>(pattern)) + ".sluicelog";
+        UniqueFd leaked;
+        int asked = 0;
+        const Row row = runCombination(one, kSeed, {400, 0.0}, log, [&] {
+            if (++asked == 150) {
+                leaked = UniqueFd(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+            }
+            return false;
+        });
+        ASSERT_TRUE(leaked.valid());
+        ASSERT_TRUE(row.failure);
+        EXPECT_NE(row.failure->find("descriptors"), std::string::npos) << describe(row);
+        EXPECT_EQ(row.log, log);
+        EXPECT_EQ(row.log_error, "");
+        EXPECT_TRUE(std::filesystem::remove(log));
+    }
+}
+
+TEST(Log, ThatCannotBeWrittenIsNamed) {
+    const Combination one{Pattern::ResizeStorm, Backend::Bridged, Resource::R32F, Topology::BridgeThread, Fault::None};
+    UniqueFd leaked;
+    int asked = 0;
+    const Row row = runCombination(one, kSeed, {200, 0.0}, ::testing::TempDir(), [&] {
+        if (++asked == 50) {
+            leaked = UniqueFd(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+        }
+        return false;
+    });
+    ASSERT_TRUE(row.failure);
+    EXPECT_EQ(row.log, "");
+    EXPECT_NE(row.log_error.find(::testing::TempDir()), std::string::npos) << row.log_error;
 }
 
 /// What a bridge thread does after the run has given up on a stuck queue.
