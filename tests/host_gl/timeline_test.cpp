@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstring>
@@ -13,6 +14,8 @@
 
 #include "gl_test.hpp"
 #include "sluice/host_gl/screen.hpp"
+#include "sluice/ledger/live.hpp"
+#include "timeline/cpu_wait.hpp"
 #include "timeline/host_timeline.hpp"
 
 namespace sluice::host::test {
@@ -229,6 +232,27 @@ TEST_F(TimelineTest, FailureOfTheBridgeEndsAWaitAndIsToldOnce) {
     EXPECT_TRUE(timeline->signal(2, {}));
     ASSERT_TRUE(fake_.until(1));
     EXPECT_THAT(fake_.signalled, ElementsAreArray({2}));
+}
+
+TEST_F(TimelineTest, AWaitWithoutHopeIsGivenUpAndNotTakenForADeadline) {
+    ledger::LiveLedger ledger;
+    std::vector<std::string> told;
+    const std::atomic<bool> hopeless = true;
+    {
+        ledger::HandOffFeed feed(ledger, SLUICE_TIMELINE_BRIDGED, 2);
+        TimelineDeps deps;
+        deps.api = &api_;
+        deps.renderer = fake_.handle();
+        deps.feed = &feed;
+        deps.log = [&](SluiceLogLevel, std::string_view text) { told.emplace_back(text); };
+        const Status status = waitOnCpu(deps, 1, 60'000'000'000ULL, &hopeless);
+        ASSERT_FALSE(status);
+        EXPECT_EQ(status.error().code, SLUICE_ERROR_DEVICE_LOST);
+        EXPECT_THAT(status.error().message(), HasSubstr("gave up waiting for 1"));
+    }
+    EXPECT_TRUE(ledger.finish(ledger::End::Closed));
+    EXPECT_TRUE(ledger.findings().empty()) << ledger.findings().front().sentence;
+    EXPECT_TRUE(told.empty()) << told.front();
 }
 
 TEST_F(TimelineTest, UnsynchronisedPromisesWithoutWaiting) {

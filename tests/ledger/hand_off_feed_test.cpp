@@ -44,10 +44,10 @@ class Rig {
             frame(next_++);
         }
     }
-    void resize() {
+    void resize(bool drained = true) {
         tellQueue(0);
         feed_->glFinished(monotonicNanoseconds());
-        feed_->imagesDestroyed();
+        feed_->imagesDestroyed(drained);
         feed_->imagesMade(kAlwaysSharedRoles);
     }
     void end() {
@@ -235,6 +235,28 @@ TEST(HandOffFeed, TheChainNamesASignalThatWasNeverRecordedAndAFrameThatWasNeverS
     ASSERT_TRUE(rig.feed().submits(4));
     EXPECT_THAT(rig.feed().waitForChain(4), HasSubstr("nobody has promised host-to-renderer 7"));
     EXPECT_THAT(rig.feed().waitForChain(5), HasSubstr("frame 5 has not been submitted; the last one is 4"));
+}
+
+TEST(HandOffFeed, OnlyAQueueThatWasWaitedForIsThroughWithTheImages) {
+    for (const bool drained : {true, false}) {
+        Mistake skip;
+        skip.frame = 3;
+        skip.host_skips_wait = true;
+        Rig rig(SLUICE_TIMELINE_BRIDGED, 2, skip);
+        rig.frames(3);
+        rig.resize(drained);
+        rig.end();
+        EXPECT_EQ(rig.found().count("use-after-destroy"), drained ? 0U : 1U) << "drained: " << drained;
+    }
+}
+
+TEST(HandOffFeed, AWaitThatWasGivenUpIsNoFinding) {
+    Rig rig(SLUICE_TIMELINE_BRIDGED, 2);
+    rig.frames(3);
+    rig.feed().hostWaits(4);
+    rig.feed().hostGaveUp(4, monotonicNanoseconds());
+    rig.end();
+    EXPECT_THAT(rig.found(), IsEmpty());
 }
 
 TEST(HandOffFeed, EventsOfOtherTracksAndUnknownImagesAreNothing) {

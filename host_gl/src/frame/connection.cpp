@@ -29,6 +29,13 @@ SluiceCreateInfo createInfo(const FluidHostConfig& config, SluiceTimelineKind ti
     return info;
 }
 
+/// Whether a resize that failed with `code` had waited for the frames in flight before. These codes can only come from
+/// the new images; the others may mean that frames do not end, and nothing may be built on a wait that was perhaps not.
+bool failedAfterTheWait(SluiceResult code) {
+    return code == SLUICE_ERROR_UNSUPPORTED || code == SLUICE_ERROR_OUT_OF_MEMORY || code == SLUICE_ERROR_IMPORT ||
+           code == SLUICE_ERROR_CANARY;
+}
+
 }  // namespace
 
 Status Connection::attempt(const PluginLibrary& library, SluiceTimelineKind kind, Stage& stage) {
@@ -133,6 +140,7 @@ Status Connection::adoptImages() {
 
 Status Connection::resize(std::uint32_t width, std::uint32_t height) {
     Status status = renderer.resize(width, height);
+    const bool drained = status || failedAfterTheWait(status.error().code);
     if (status) {
         config.width = width;
         config.height = height;
@@ -140,7 +148,7 @@ Status Connection::resize(std::uint32_t width, std::uint32_t height) {
     }
     sets->reset();
     if (feed) {
-        feed->imagesDestroyed();
+        feed->imagesDestroyed(drained);
         feed->imagesMade(status ? sharedRoles() : 0);
     }
     if (!status) {

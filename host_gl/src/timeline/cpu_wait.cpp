@@ -15,8 +15,9 @@ namespace {
 // How often a blocked wait looks whether it is still worth waiting.
 constexpr std::uint64_t kSliceNs = 50'000'000;
 
+/// `gave_up`: not the time has passed, but hope.
 SluiceResult waitInSlices(const TimelineDeps& deps, std::uint64_t value, std::uint64_t timeout_ns,
-                          const std::atomic<bool>* hopeless) {
+                          const std::atomic<bool>* hopeless, bool& gave_up) {
     if (hopeless == nullptr) {
         return deps.api->timeline_wait(deps.renderer, value, timeout_ns);
     }
@@ -25,7 +26,8 @@ SluiceResult waitInSlices(const TimelineDeps& deps, std::uint64_t value, std::ui
         const std::uint64_t spent = monotonicNanoseconds() - begin;
         const std::uint64_t left = timeout_ns - std::min(spent, timeout_ns);
         const SluiceResult result = deps.api->timeline_wait(deps.renderer, value, std::min(left, kSliceNs));
-        if (result != SLUICE_TIMEOUT || left <= kSliceNs || hopeless->load()) {
+        gave_up = result == SLUICE_TIMEOUT && hopeless->load();
+        if (result != SLUICE_TIMEOUT || left <= kSliceNs || gave_up) {
             return result;
         }
     }
@@ -39,16 +41,26 @@ Status waitOnCpu(const TimelineDeps& deps, std::uint64_t value, std::uint64_t ti
     if (deps.feed != nullptr) {
         deps.feed->hostWaits(value);
     }
-    const SluiceResult result = waitInSlices(deps, value, timeout_ns, hopeless);
+    bool gave_up = false;
+    const SluiceResult result = waitInSlices(deps, value, timeout_ns, hopeless, gave_up);
     traceStep(deps.trace, SLUICE_TRACE_WAIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST, value, begin,
               "wait for renderer");
+    const bool failed = result != SLUICE_OK && result != SLUICE_TIMEOUT;
+    if ((gave_up || failed) && deps.feed != nullptr) {
+        deps.feed->hostGaveUp(value, begin);
+    }
+    if (gave_up) {
+        return Error{SLUICE_ERROR_DEVICE_LOST, "renderer's timeline",
+                     fmt::format("gave up waiting for {}: it can no longer be reached", value),
+                     "destroy the renderer and create it again"};
+    }
     if (result == SLUICE_TIMEOUT) {
         tellWatchdog(deps, value, begin);
         return Error{SLUICE_TIMEOUT, "renderer's timeline",
                      fmt::format("did not reach {} within {:.3f} s", value, static_cast<double>(timeout_ns) * 1e-9),
                      "raise wait_timeout_ns, or look at the trace for what the renderer waits for"};
     }
-    if (result != SLUICE_OK) {
+    if (failed) {
         return Error{result < 0 ? result : SLUICE_ERROR_INTERNAL, "renderer's timeline",
                      fmt::format("waiting for {} failed with code {}", value, static_cast<int>(result)),
                      "destroy the renderer and create it again"};

@@ -10,8 +10,8 @@
 
 namespace sluice::host {
 
-/// Blocks until the renderer-to-host counter reaches `value`; SLUICE_TIMEOUT after `timeout_ns`. Gives up early, as if
-/// the time had passed, soon after `hopeless` (may be nullptr) becomes true.
+/// Blocks until the renderer-to-host counter reaches `value`; SLUICE_TIMEOUT after `timeout_ns`. Gives up early with
+/// SLUICE_ERROR_DEVICE_LOST soon after `hopeless` (may be nullptr) becomes true; whoever set it tells why.
 [[nodiscard]] Status waitOnCpu(const TimelineDeps& deps, std::uint64_t value, std::uint64_t timeout_ns,
                                const std::atomic<bool>* hopeless);
 /// A wait for `value` of the renderer that began at `begin_ns` has passed its deadline: the log gets the chain of those

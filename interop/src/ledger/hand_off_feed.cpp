@@ -128,12 +128,13 @@ void HandOffFeed::imagesMade(std::uint32_t roles) {
     }
 }
 
-void HandOffFeed::imagesDestroyed() {
+void HandOffFeed::imagesDestroyed(bool drained) {
     const std::lock_guard lock(mutex_);
-    // Inside the host's call the renderer has waited for its queue.
-    ++drains_;
-    put(EventKind::Signal, kRendererQueue, kQueueDrains, queue_frame_, drains_);
-    put(EventKind::Wait, kHostThread, kQueueDrains, queue_frame_, drains_);
+    if (drained) {
+        ++drains_;
+        put(EventKind::Signal, kRendererQueue, kQueueDrains, queue_frame_, drains_);
+        put(EventKind::Wait, kHostThread, kQueueDrains, queue_frame_, drains_);
+    }
     for (std::uint32_t set = 0; set < sets_; ++set) {
         for (std::uint32_t role = 0; role < SLUICE_IMAGE_ROLE_COUNT; ++role) {
             if ((roles_ & SLUICE_ROLE_BIT(role)) != 0) {
@@ -252,6 +253,12 @@ void HandOffFeed::hostWaited(std::uint64_t value, std::uint64_t begin_ns, bool t
     const std::lock_guard lock(mutex_);
     put(EventKind::Wait, kHostThread, syncOf(SLUICE_RENDERER_TO_HOST, value), value, value, begin_ns,
         monotonicNanoseconds() - begin_ns, timed_out ? std::uint16_t{kTimedOut} : std::uint16_t{0});
+}
+
+void HandOffFeed::hostGaveUp(std::uint64_t value, std::uint64_t begin_ns) {
+    const std::lock_guard lock(mutex_);
+    put(EventKind::Wait, kHostThread, syncOf(SLUICE_RENDERER_TO_HOST, value), value, value, begin_ns,
+        monotonicNanoseconds() - begin_ns, kGaveUp);
 }
 
 void HandOffFeed::queueBegins(std::uint64_t frame, std::uint64_t begin_ns) {

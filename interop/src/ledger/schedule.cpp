@@ -20,7 +20,7 @@ struct Signals {
 };
 
 bool isWait(const RecordedEvent& recorded) {
-    return recorded.event.kind == EventKind::Wait && (recorded.event.flags & kTimedOut) == 0;
+    return recorded.event.kind == EventKind::Wait && (recorded.event.flags & (kTimedOut | kGaveUp)) == 0;
 }
 
 std::uint32_t satisfier(const RecordedSync& sync, Signals& signals, std::uint64_t value) {

@@ -181,9 +181,13 @@ bool Ledger::State::wait(Actor& by, const Item& item) {
     Sync& sync = syncs[item.slot];
     const Event& event = item.event;
     const bool timed_out = (event.flags & kTimedOut) != 0;
-    if (sync.destroyed || timed_out) {
+    const bool gave_up = (event.flags & kGaveUp) != 0;
+    if (sync.destroyed || timed_out || gave_up) {
         by.names.clear();
         by.open_wait.reset();
+    }
+    if (gave_up) {
+        return true;
     }
     if (timed_out) {
         if (auto* found = report(FindingKind::WaitTimedOut, sync.id, event, event, event.duration_ns)) {

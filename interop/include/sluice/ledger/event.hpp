@@ -83,6 +83,8 @@ enum class Verdict : std::uint8_t { Fresh, Stale, Torn };
 enum EventFlag : std::uint16_t {
     kTimedOut = 1U << 8,  ///< a Wait that ended without its value
     kForced = 1U << 9,    ///< a Signal that a watchdog gave in the place of the rightful one
+    kGaveUp = 1U << 10,   ///< a Wait that ended without its value, for a cause that is told elsewhere: no finding
+    kUntold = 1U << 11,   ///< an ActorEnd: what the actor did was not told, so what waits for it is not judged
 };
 
 /// One record, 48 bytes, fixed layout, little-endian in a log file.

@@ -45,8 +45,8 @@ class HandOffFeed {
 
     /// The images of every set are new; `roles` are SLUICE_ROLE_BITs. The host has them.
     void imagesMade(std::uint32_t roles);
-    /// The images are gone. GL had been finished and the renderer had waited for its queue before.
-    void imagesDestroyed();
+    /// The images are gone. GL had been finished before. `drained`: and the renderer had waited for its queue.
+    void imagesDestroyed(bool drained);
 
     // Host's side, in the order of a frame. Frame k uses set (k-1) mod N.
 
@@ -79,6 +79,8 @@ class HandOffFeed {
     /// The host's thread begins to wait for the renderer, and has ended that wait.
     void hostWaits(std::uint64_t value);
     void hostWaited(std::uint64_t value, std::uint64_t begin_ns, bool timed_out);
+    /// The host's thread has left that wait before its end, for a cause that is told elsewhere.
+    void hostGaveUp(std::uint64_t value, std::uint64_t begin_ns);
 
     /// What the renderer says of its queue; all else is passed over.
     void trace(const SluiceTraceEvent& event);
