@@ -187,7 +187,7 @@ int renderAll(Run& run) {
 }
 
 /// The ledger's verdict, once nobody can signal any more.
-int finishLedger(Run& run, int code) {
+int finishLedger(Run& run, bool handed_over, int code) {
     ledger::LiveLedger* ledger = run.session.ledger.get();
     if (ledger == nullptr) {
         return code;
@@ -198,15 +198,19 @@ int finishLedger(Run& run, int code) {
     } else if (!run.options.ledger_log.empty()) {
         run.summary.files.push_back(run.options.ledger_log);
     }
-    run.summary.ledger =
-        LedgerSummary{ledger->eventsSeen(), ledger->memoryBytes(), ledger->findingsDropped(), ledger->findings()};
+    if (!handed_over) {
+        ledger->leaveUnchecked({1, "no frame was handed to a renderer"});
+    }
+    run.summary.ledger = LedgerSummary{ledger->eventsSeen(), ledger->memoryBytes(), ledger->findingsDropped(),
+                                       ledger->findings(), ledger->unchecked()};
     return code;
 }
 
 /// The renderer's shut-down belongs to the trace too, so the trace is written after it.
 int finish(Run& run, int code) {
+    const bool handed_over = run.session.fluid && run.session.fluid->frame() > 0;
     run.session.fluid.reset();
-    code = finishLedger(run, code);
+    code = finishLedger(run, handed_over, code);
     std::vector<TraceRecord> last = run.session.trace->drain();
     RunSummary& s = run.summary;
     s.validation_messages = std::max(s.validation_messages, run.session.validation_messages->load());
@@ -239,6 +243,11 @@ int finish(Run& run, int code) {
 }
 
 int renderChecked(const RenderOptions& options, RenderInputs inputs) {
+    // With auto the timeline is known once the renderer is, and FluidHost asks the same.
+    if (const Status status = options.fault ? host::checkFault(*options.fault, options.timeline) : Status{}; !status) {
+        logError(status.error());
+        return kExitUsage;
+    }
     if (const Status status = checkOutputs(options, inputs.frames); !status) {
         logError(status.error());
         return kExitUsage;

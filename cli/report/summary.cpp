@@ -93,12 +93,21 @@ Json passesJson(const std::vector<PassRow>& passes) {
 }
 
 std::string ledgerText(const LedgerSummary& s) {
-    if (s.findings.empty()) {
-        return fmt::format("ledger: {} events, no finding\n", formatCount(s.events));
+    const std::string count = s.findings.empty()       ? "no finding"
+                              : s.findings.size() == 1 ? "1 finding"
+                                                       : fmt::format("{} findings", s.findings.size());
+    std::string text;
+    if (s.unchecked && s.unchecked->since_frame <= 1) {
+        text = fmt::format("ledger: not checked: {}\n", s.unchecked->why);
+    } else if (s.unchecked) {
+        text = fmt::format("ledger: {} events, {}; off since frame {}: {}\n", formatCount(s.events), count,
+                           s.unchecked->since_frame, s.unchecked->why);
+    } else {
+        text = fmt::format("ledger: {} events, {}\n", formatCount(s.events), count);
     }
-    std::string text =
-        fmt::format("ledger: {} events, {}\n", formatCount(s.events),
-                    s.findings.size() == 1 ? "1 finding" : fmt::format("{} findings", s.findings.size()));
+    if (s.findings.empty()) {
+        return text;
+    }
     for (const ledger::Finding& finding : s.findings) {
         const ledger::FindingInfo& info = ledger::findingInfo(finding.kind);
         text += fmt::format("  {} {}{}: {} {}\n", ledger::toString(info.severity), info.id,
@@ -131,7 +140,15 @@ Json ledgerJson(const std::optional<LedgerSummary>& s) {
                             {"edge", finding.edge},
                             {"chain", finding.chain}});
     }
-    return {{"events", s->events}, {"memory_bytes", s->memory_bytes}, {"dropped", s->dropped}, {"findings", findings}};
+    Json unchecked = nullptr;
+    if (s->unchecked) {
+        unchecked = {{"since_frame", s->unchecked->since_frame}, {"why", s->unchecked->why}};
+    }
+    return {{"events", s->events},
+            {"memory_bytes", s->memory_bytes},
+            {"dropped", s->dropped},
+            {"unchecked", unchecked},
+            {"findings", findings}};
 }
 
 }  // namespace

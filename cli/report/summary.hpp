@@ -10,6 +10,7 @@
 
 #include "report/statistics.hpp"
 #include "sluice/ledger/finding.hpp"
+#include "sluice/ledger/live.hpp"
 #include "sluice/plugin.h"
 #include "sluice/scene/scene.hpp"
 
@@ -19,6 +20,7 @@ namespace sluice::cli {
 struct LedgerSummary {
     std::uint64_t events = 0, memory_bytes = 0, dropped = 0;
     std::vector<ledger::Finding> findings;
+    std::optional<ledger::Unchecked> unchecked;
 };
 
 struct RunSummary {

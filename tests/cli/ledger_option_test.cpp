@@ -60,6 +60,15 @@ TEST_F(LedgerOption, CleanFramesEndWithOneLineAndTheLogIsClean) {
     EXPECT_EQ(diagnosed.code, 0) << diagnosed.out << diagnosed.err;
 }
 
+TEST_F(LedgerOption, WithoutARendererItSaysThatNothingWasChecked) {
+    const Outcome text = run("render s.json -o a.png --no-fluid --ledger");
+    EXPECT_EQ(text.code, 0) << text.err;
+    EXPECT_THAT(text.out, HasSubstr("ledger: not checked: no frame was handed to a renderer\n"));
+    const Outcome json = run("render s.json -o a.png --plugin /no/such.so --ledger --json");
+    EXPECT_EQ(json.code, 3);
+    EXPECT_EQ(nlohmann::json::parse(json.out).at("ledger").at("unchecked").at("since_frame"), 1);
+}
+
 TEST_F(LedgerOption, WithoutItTheSummaryHasNone) {
     const Outcome outcome = run("render s.json -o a.png --json");
     EXPECT_TRUE(nlohmann::json::parse(outcome.out).at("ledger").is_null());
@@ -88,6 +97,15 @@ TEST_F(LedgerOption, ADroppedSignalCostsOneFrameItsFluidAndTheLogTellsWhoWaitsFo
     const auto frames = nlohmann::json::parse(outcome.out).at("frames");
     EXPECT_EQ(frames.at("written"), 5);
     EXPECT_EQ(frames.at("with_fluid"), 4);
+}
+
+TEST_F(LedgerOption, AFaultThatWouldHangOrNeverComesIsSaid) {
+    const Outcome hangs = run("render s.json -o a.png --timeline native --fault drop@1");
+    EXPECT_EQ(hangs.code, 1);
+    EXPECT_THAT(hangs.err, HasSubstr("--timeline bridged"));
+    const Outcome late = run("render s.json -o a_####.png --frames 1..2 --fault drop@9");
+    EXPECT_EQ(late.code, 0) << late.err;
+    EXPECT_THAT(late.err, HasSubstr("fault drop: frame 9 never came, the last one was 2"));
 }
 
 TEST_F(LedgerOption, ALogThatCannotBeWrittenIsSaidBeforeAnyWork) {

@@ -90,6 +90,43 @@ TEST_F(FaultTest, AFailureThatIsNotTheTimelinesDoesNotFallBack) {
     EXPECT_EQ(control_->attempt_count, 1U);
 }
 
+TEST_F(FaultTest, AFaultThatWouldHangAWaitOfOpenGLIsRefused) {
+    for (const FaultKind kind : {FaultKind::Drop, FaultKind::Swap, FaultKind::Duplicate}) {
+        for (const SluiceTimelineKind timeline : {SLUICE_TIMELINE_NATIVE, SLUICE_TIMELINE_BINARY}) {
+            EXPECT_FALSE(checkFault({kind, 1, SLUICE_HOST_TO_RENDERER}, timeline));
+        }
+        EXPECT_TRUE(checkFault({kind, 1, SLUICE_HOST_TO_RENDERER}, SLUICE_TIMELINE_BRIDGED));
+        EXPECT_TRUE(checkFault({kind, 1, SLUICE_RENDERER_TO_HOST}, SLUICE_TIMELINE_NATIVE));
+    }
+    EXPECT_TRUE(checkFault({FaultKind::Delay, 1, SLUICE_HOST_TO_RENDERER}, SLUICE_TIMELINE_NATIVE));
+    control_->lies = bit(SLUICE_TIMELINE_NATIVE);
+    FluidHostConfig wanted = config();
+    wanted.fault = FaultPlan{FaultKind::Drop, 1};
+    const auto refused = FluidHost::create(*library_, wanted);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message(), AllOf(HasSubstr("native"), HasSubstr("--timeline bridged")));
+    EXPECT_EQ(control_->attempt_count, 1U) << "auto does not go on to a timeline that nobody asked for";
+}
+
+TEST_F(FaultTest, AFaultWhoseFrameNeverCameIsSaid) {
+    for (const std::uint64_t frame : {2U, 3U}) {
+        FluidHostConfig wanted = config();
+        wanted.timeline = SLUICE_TIMELINE_BRIDGED;
+        wanted.fault = FaultPlan{FaultKind::Delay, frame, SLUICE_HOST_TO_RENDERER, 1};
+        ASSERT_NO_FATAL_FAILURE(makeHost(wanted));
+        ASSERT_NO_FATAL_FAILURE(makeScreen(kEchoWidth, kEchoHeight));
+        ASSERT_NO_FATAL_FAILURE(frameIsClean());
+        ASSERT_NO_FATAL_FAILURE(frameIsClean());
+        host_.reset();
+        if (frame == 2) {
+            EXPECT_THAT(complaints_, IsEmpty());
+        } else {
+            EXPECT_THAT(complaints_, ElementsAre(HasSubstr("frame 3 never came, the last one was 2")));
+        }
+        complaints_.clear();
+    }
+}
+
 TEST_F(FaultTest, AfterALossInSubmitNothingIsWaitedForAndTheScreenIsLeftAlone) {
     FluidHostConfig wanted = config();
     wanted.timeline = SLUICE_TIMELINE_BRIDGED;

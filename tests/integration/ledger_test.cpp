@@ -131,7 +131,10 @@ TEST_F(LedgerTest, ARendererThatTellsNothingIsToldOnceAndCostsNoMemory) {
     EXPECT_EQ(ledger_->eventsSeen(), events + 50) << "nothing but this test's own Witness events";
     EXPECT_THAT(complaints_, ElementsAre(HasSubstr("the renderer sends no trace events of its queue")));
     complaints_.clear();
-    host_.reset();
+    finish();
+    EXPECT_THAT(ledger_->findings(), IsEmpty()) << told(*ledger_);
+    ASSERT_TRUE(ledger_->unchecked());
+    EXPECT_EQ(ledger_->unchecked()->since_frame, 1U);
 }
 
 TEST_F(LedgerTest, TheLogHoldsWhatTheLedgerWasTold) {

@@ -29,6 +29,7 @@ using ::testing::Key;
 struct Mistake {
     std::uint64_t frame = 0;
     bool queue_skips_wait = false, host_skips_wait = false, names_left_out = false, submit_fails = false;
+    bool queue_mute = false;  ///< from that frame on
 };
 
 class Rig {
@@ -63,6 +64,7 @@ class Rig {
         return ids;
     }
     HandOffFeed& feed() { return *feed_; }
+    int wentBlind() const { return went_blind_; }
 
     LiveLedger ledger;
 
@@ -73,7 +75,9 @@ class Rig {
         feed_->captureEnds(k);
         signal(gbufferWritten(k), !(wrong && mistake_.names_left_out));
         tellQueue(sets_ - 1);
-        EXPECT_TRUE(feed_->submits(k));
+        if (!feed_->submits(k)) {
+            ++went_blind_;
+        }
         if (wrong && mistake_.submit_fails) {
             feed_->takenBack(k);
             return;
@@ -109,7 +113,9 @@ class Rig {
     }
     void tellQueue(std::size_t leave) {
         while (late_.size() > leave) {
-            queue(late_.front());
+            if (!(mistake_.queue_mute && late_.front() >= mistake_.frame)) {
+                queue(late_.front());
+            }
             late_.pop_front();
         }
     }
@@ -145,6 +151,7 @@ class Rig {
     std::unique_ptr<HandOffFeed> feed_;
     std::uint64_t next_ = 1;
     std::deque<std::uint64_t> late_;
+    int went_blind_ = 0;
 };
 
 class HandOffFeedOf : public ::testing::TestWithParam<std::tuple<SluiceTimelineKind, std::uint32_t>> {
@@ -164,6 +171,36 @@ TEST_P(HandOffFeedOf, IsSilentAboutCleanFramesAResizeAndAFailedSubmit) {
     rig.end();
     EXPECT_THAT(rig.found(), IsEmpty());
     EXPECT_GT(rig.ledger.eventsSeen(), 40U * 20);
+    EXPECT_FALSE(rig.ledger.unchecked());
+    EXPECT_EQ(rig.wentBlind(), 0);
+}
+
+TEST_P(HandOffFeedOf, AQueueThatTellsNothingIsNotChecked) {
+    for (const std::uint64_t count : {5U, 100U}) {
+        Mistake mute;
+        mute.frame = 1;
+        mute.queue_mute = true;
+        Rig rig(kind_, sets_, mute);
+        rig.frames(count);
+        rig.end();
+        EXPECT_THAT(rig.found(), IsEmpty());
+        ASSERT_TRUE(rig.ledger.unchecked());
+        EXPECT_EQ(rig.ledger.unchecked()->since_frame, 1U);
+        EXPECT_EQ(rig.wentBlind(), count > 64 ? 1 : 0);
+    }
+}
+
+TEST_P(HandOffFeedOf, AQueueThatFallsSilentIsCheckedUpToThere) {
+    Mistake mute;
+    mute.frame = 10;
+    mute.queue_mute = true;
+    Rig rig(kind_, sets_, mute);
+    rig.frames(100);
+    rig.end();
+    EXPECT_THAT(rig.found(), IsEmpty());
+    ASSERT_TRUE(rig.ledger.unchecked());
+    EXPECT_EQ(rig.ledger.unchecked()->since_frame, 10U);
+    EXPECT_EQ(rig.wentBlind(), 1);
 }
 
 TEST_P(HandOffFeedOf, TellsOfTheWaitThatTheHostLeftOut) {

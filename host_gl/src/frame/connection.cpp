@@ -48,9 +48,15 @@ Status Connection::attempt(const PluginLibrary& library, SluiceTimelineKind kind
     if (Status status = adoptImages(); !status) {
         return status;
     }
+    const auto settled = static_cast<SluiceTimelineKind>(info.timeline);
+    if (config.fault) {
+        if (Status status = checkFault(*config.fault, settled); !status) {
+            return status;
+        }
+    }
     sets.emplace(info.image_sets, services.images(), config.trace);
     if (config.ledger != nullptr) {
-        feed.emplace(*config.ledger, static_cast<SluiceTimelineKind>(info.timeline), info.image_sets);
+        feed.emplace(*config.ledger, settled, info.image_sets);
         feed->imagesMade(sharedRoles());
         services.tellFeed(&*feed);
     }
@@ -61,7 +67,7 @@ Status Connection::attempt(const PluginLibrary& library, SluiceTimelineKind kind
     deps.trace = config.trace;
     deps.feed = feed ? &*feed : nullptr;
     deps.log = [this](SluiceLogLevel level, std::string_view text) { services.log(level, text); };
-    Result<std::unique_ptr<HostTimeline>> made = makeHostTimeline(static_cast<SluiceTimelineKind>(info.timeline), deps);
+    Result<std::unique_ptr<HostTimeline>> made = makeHostTimeline(settled, deps);
     if (!made) {
         return made.error();
     }

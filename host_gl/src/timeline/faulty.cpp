@@ -10,12 +10,19 @@
 #include <utility>
 #include <vector>
 
+#include "sluice/format.hpp"
 #include "sluice/trace.hpp"
 #include "timeline/cpu_wait.hpp"
 
 namespace sluice::host {
 
 namespace {
+
+std::string_view nameOf(FaultKind kind) {
+    const auto* found =
+        std::find_if(kFaultNames.begin(), kFaultNames.end(), [&](const auto& one) { return one.second == kind; });
+    return found->first;
+}
 
 void sleepUntil(std::uint64_t monotonic_ns) {
     const std::uint64_t now = monotonicNanoseconds();
@@ -30,11 +37,19 @@ class FaultyTimeline final : public HostTimeline {
         : deps_(std::move(deps)), inner_(std::move(inner)), plan_(plan) {}
     FaultyTimeline(const FaultyTimeline&) = delete;
     FaultyTimeline& operator=(const FaultyTimeline&) = delete;
-    ~FaultyTimeline() override { (void)giveLate(); }
+    ~FaultyTimeline() override {
+        (void)giveLate();
+        if (last_ < plan_.frame && deps_.log) {
+            deps_.log(SLUICE_LOG_WARNING, fmt::format("fault {}: frame {} never came, the last one was {}: nothing was "
+                                                      "injected",
+                                                      nameOf(plan_.kind), plan_.frame, last_));
+        }
+    }
 
     [[nodiscard]] SluiceTimelineKind kind() const override { return inner_->kind(); }
 
     [[nodiscard]] Status signal(std::uint64_t value, std::span<const std::uint32_t> textures) override {
+        last_ = std::max(last_, (value + 1) / 2);
         if (Status status = giveLate(); !status) {
             return status;
         }
@@ -152,9 +167,22 @@ class FaultyTimeline final : public HostTimeline {
     FaultPlan plan_;
     std::optional<Late> late_;
     bool spent_ = false;
+    std::uint64_t last_ = 0;  ///< frame
 };
 
 }  // namespace
+
+Status checkFault(const FaultPlan& plan, SluiceTimelineKind timeline) {
+    const bool gl_waits = timeline == SLUICE_TIMELINE_NATIVE || timeline == SLUICE_TIMELINE_BINARY;
+    const bool starves =
+        plan.kind == FaultKind::Drop || plan.kind == FaultKind::Swap || plan.kind == FaultKind::Duplicate;
+    if (gl_waits && starves && plan.direction == SLUICE_HOST_TO_RENDERER) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("fault {} to the renderer", nameOf(plan.kind)),
+                     fmt::format("with timeline {} OpenGL would wait without an end", toString(timeline)),
+                     "use --timeline bridged"};
+    }
+    return {};
+}
 
 std::unique_ptr<HostTimeline> makeFaultyTimeline(std::unique_ptr<HostTimeline> inner, const FaultPlan& plan,
                                                  const TimelineDeps& deps) {

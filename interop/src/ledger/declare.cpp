@@ -36,6 +36,7 @@ void Ledger::declareActor(ActorId id, ActorKind kind, std::string_view name) {
     actor.kind = kind;
     actor.name = name;
     actor.ended = false;
+    actor.untold = false;
 }
 
 void Ledger::declareSync(ObjectId id, SyncKind kind, std::string_view name, std::uint64_t initial,

@@ -54,6 +54,9 @@ HandOffFeed::HandOffFeed(LiveLedger& ledger, SluiceTimelineKind kind, std::uint3
 
 HandOffFeed::~HandOffFeed() {
     const std::lock_guard lock(mutex_);
+    if (taken_ > 0 && !heard_) {
+        queueUntold();
+    }
     put(EventKind::ActorEnd, kRendererQueue, kNoObject, queue_frame_);
     if (kind_ == SLUICE_TIMELINE_BRIDGED) {
         put(EventKind::ActorEnd, kBridgeThread, kNoObject, submitted_);
@@ -176,16 +179,23 @@ bool HandOffFeed::submits(std::uint64_t frame) {
     const std::lock_guard lock(mutex_);
     submitted_ = frame;
     ++unheard_;
+    ++taken_;
     declareBinary(SLUICE_RENDERER_TO_HOST, frame);
     put(EventKind::Signal, kHostThread, kSubmissions, frame, frame);
     const bool patient = unheard_ <= kPatienceFrames || blind_;
-    blind_ = blind_ || !patient;
+    if (!patient) {
+        queueUntold();
+        blind_ = true;
+    }
     return patient;
 }
 
 void HandOffFeed::takenBack(std::uint64_t frame) {
     const std::lock_guard lock(mutex_);
-    unheard_ -= submitted_ == frame && unheard_ > 0 ? 1 : 0;
+    if (submitted_ == frame) {
+        unheard_ -= unheard_ > 0 ? 1 : 0;
+        taken_ -= taken_ > 0 ? 1 : 0;
+    }
     take(frame);
 }
 
@@ -261,6 +271,14 @@ void HandOffFeed::hostGaveUp(std::uint64_t value, std::uint64_t begin_ns) {
         monotonicNanoseconds() - begin_ns, kGaveUp);
 }
 
+void HandOffFeed::queueUntold() {
+    put(EventKind::ActorEnd, kRendererQueue, kNoObject, queue_frame_, 0, 0, 0, kUntold);
+    if (!blind_) {
+        ledger_.leaveUnchecked({queue_frame_ + 1, heard_ ? "the renderer told nothing more of its queue"
+                                                         : "the renderer told nothing of its queue"});
+    }
+}
+
 void HandOffFeed::queueBegins(std::uint64_t frame, std::uint64_t begin_ns) {
     if (frame == queue_frame_) {
         return;
@@ -293,6 +311,7 @@ void HandOffFeed::trace(const SluiceTraceEvent& event) {
         }
         return 0;
     };
+    heard_ = true;
     queueBegins(event.frame, event.begin_ns);
     switch (event.kind) {
         case SLUICE_TRACE_WAIT:

@@ -18,6 +18,8 @@ void Ledger::State::record(Event event) {
     if (event.frame == 0) {
         event.frame = by.frame;
     }
+    // At once, even for an actor that is held.
+    by.untold |= event.kind == EventKind::ActorEnd && (event.flags & kUntold) != 0;
     Item item{event, objectSlot(event), nullptr, false};
     switch (event.kind) {
         // Not part of the order: judged as they come, even from an actor that is held.

@@ -58,6 +58,18 @@ std::vector<std::string> LiveLedger::waitChain(ActorId actor) const {
     return ledger_.waitChain(actor);
 }
 
+void LiveLedger::leaveUnchecked(Unchecked what) {
+    const std::lock_guard lock(mutex_);
+    if (!unchecked_) {
+        unchecked_ = std::move(what);
+    }
+}
+
+std::optional<Unchecked> LiveLedger::unchecked() const {
+    const std::lock_guard lock(mutex_);
+    return unchecked_;
+}
+
 Status LiveLedger::finish(End end) {
     const std::lock_guard lock(mutex_);
     if (finished_) {

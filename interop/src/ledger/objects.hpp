@@ -166,6 +166,7 @@ struct Actor {
     ActorKind kind = ActorKind::HostThread;
     std::string name;
     bool ended = false;
+    bool untold = false;  ///< kUntold
     std::uint64_t tick = 1;
     Knowledge know;  ///< of others; its own past goes without saying
     std::uint32_t frame = 0;

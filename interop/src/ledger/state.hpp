@@ -101,6 +101,8 @@ struct Ledger::State {
     [[nodiscard]] std::vector<std::string> chainLines(const Actor& who) const;
     [[nodiscard]] bool satisfied(const Item& wait) const;
     [[nodiscard]] bool somebodyLeft(const Actor& who, const Sync& sync) const;
+    /// Its signals may have come without being told.
+    [[nodiscard]] bool untold(const Sync& sync) const;
     void judgeWaits(End end);
 
     // report.cpp

@@ -116,10 +116,19 @@ bool Ledger::State::somebodyLeft(const Actor& who, const Sync& sync) const {
                                            [&](const Actor& other) { return &other != &who && !other.ended; });
 }
 
+bool Ledger::State::untold(const Sync& sync) const {
+    const auto signalled = [](const SyncUse& use) { return use.signalled; };
+    if (std::none_of(sync.uses.begin(), sync.uses.end(), signalled)) {
+        return std::any_of(actors.begin(), actors.end(), [](const Actor& actor) { return actor.untold; });
+    }
+    return std::any_of(sync.uses.begin(), sync.uses.end(),
+                       [&](const SyncUse& use) { return use.signalled && actors[use.at.actor].untold; });
+}
+
 void Ledger::State::judgeWaits(End end) {
     for (const Actor& who : actors) {
         const Item* wait = standsAt(who);
-        if (wait == nullptr || wait->join || syncs[wait->slot].blamed) {
+        if (wait == nullptr || wait->join || syncs[wait->slot].blamed || untold(syncs[wait->slot])) {
             continue;
         }
         bool cycle = false;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sluice/plugin.h"
+#include "sluice/result.hpp"
 
 namespace sluice::host {
 
@@ -43,5 +44,9 @@ struct FaultPlan {
     return direction == SLUICE_HOST_TO_RENDERER ? kind != FaultKind::EarlyReuse
                                                 : kind != FaultKind::Duplicate && kind != FaultKind::Swap;
 }
+
+/// Refuses what would hang on `timeline`: where OpenGL itself waits (NATIVE, BINARY), nothing ends a wait for a
+/// renderer that never gets its signal.
+[[nodiscard]] Status checkFault(const FaultPlan& plan, SluiceTimelineKind timeline);
 
 }  // namespace sluice::host

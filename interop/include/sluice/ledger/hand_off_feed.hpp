@@ -100,6 +100,8 @@ class HandOffFeed {
     void declareBinary(SluiceDirection direction, std::uint64_t value);
     void hostRecords(std::uint64_t frame);
     void take(std::uint64_t frame);
+    /// The renderer does not tell what its queue does: what waits for it cannot be judged.
+    void queueUntold();
     void queueBegins(std::uint64_t frame, std::uint64_t begin_ns);
     void queueTouches(std::uint64_t frame, std::uint64_t begin_ns);
 
@@ -117,6 +119,8 @@ class HandOffFeed {
     std::uint64_t finishes_ = 0, fences_ = 0, drains_ = 0;
     std::uint64_t bridged_ = 0;  ///< fences that the bridge has waited for, in their order
     std::uint64_t unheard_ = 0;  ///< submissions since the queue's last signal
+    std::uint64_t taken_ = 0;    ///< submissions that did not fail
+    bool heard_ = false;         ///< the queue was, at least once
     bool blind_ = false;
 };
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,6 +15,12 @@
 #include "sluice/result.hpp"
 
 namespace sluice::ledger {
+
+/// From this frame on the ledger was not told enough to judge; 1: from the first.
+struct Unchecked {
+    std::uint64_t since_frame = 1;
+    std::string why;
+};
 
 /// A Ledger behind a mutex. The log, if there is one, has every record in the order in which the ledger got it.
 class LiveLedger {
@@ -31,6 +38,11 @@ class LiveLedger {
     void record(const Event& event);
     [[nodiscard]] std::vector<std::string> waitChain(ActorId actor) const;
 
+    /// Whoever tells this ledger knows that it is not told everything. The first word stays.
+    void leaveUnchecked(Unchecked what);
+    /// Empty: findings() speaks for everything that was recorded.
+    [[nodiscard]] std::optional<Unchecked> unchecked() const;
+
     /// Judges what is still open and ends the log: the first failure to write it. What comes later is not recorded, so
     /// that a thread that is late does no harm.
     Status finish(End end);
@@ -42,9 +54,10 @@ class LiveLedger {
 
   private:
     mutable std::mutex mutex_;
-    Ledger ledger_;                   // guarded by mutex_
-    std::unique_ptr<LogWriter> log_;  // guarded by mutex_
-    bool finished_ = false;           // guarded by mutex_
+    Ledger ledger_;                       // guarded by mutex_
+    std::unique_ptr<LogWriter> log_;      // guarded by mutex_
+    bool finished_ = false;               // guarded by mutex_
+    std::optional<Unchecked> unchecked_;  // guarded by mutex_
 };
 
 }  // namespace sluice::ledger
