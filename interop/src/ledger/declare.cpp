@@ -28,6 +28,20 @@ Slot takeSlot(std::deque<Object>& objects, IdMap& map, std::vector<Slot>& retire
     return slot;
 }
 
+/// The slot of `id`; what the log speaks of without having declared it is declared here, as "`prefix`id".
+template <typename Object>
+Slot slotOf(IdMap& map, std::deque<Object>& objects, ObjectId id, const char* prefix) {
+    if (const Slot known = map.find(id); known != kNoSlot) {
+        return known;
+    }
+    const auto slot = static_cast<Slot>(objects.size());
+    Object& fresh = objects.emplace_back();
+    fresh.id = id;
+    fresh.name = prefix + std::to_string(id);
+    map.set(id, slot);
+    return slot;
+}
+
 }  // namespace
 
 void Ledger::declareActor(ActorId id, ActorKind kind, std::string_view name) {
@@ -84,27 +98,11 @@ Actor& Ledger::State::actor(ActorId id) {
 }
 
 Slot Ledger::State::syncSlot(ObjectId id) {
-    const Slot slot = sync_slots.find(id);
-    if (slot != kNoSlot) {
-        return slot;
-    }
-    Sync& fresh = syncs.emplace_back();
-    fresh.id = id;
-    fresh.name = "sync " + std::to_string(id);
-    sync_slots.set(id, static_cast<Slot>(syncs.size() - 1));
-    return static_cast<Slot>(syncs.size() - 1);
+    return slotOf(sync_slots, syncs, id, "sync ");
 }
 
 Slot Ledger::State::resourceSlot(ObjectId id) {
-    const Slot slot = resource_slots.find(id);
-    if (slot != kNoSlot) {
-        return slot;
-    }
-    Resource& fresh = resources.emplace_back();
-    fresh.id = id;
-    fresh.name = "resource " + std::to_string(id);
-    resource_slots.set(id, static_cast<Slot>(resources.size() - 1));
-    return static_cast<Slot>(resources.size() - 1);
+    return slotOf(resource_slots, resources, id, "resource ");
 }
 
 Slot Ledger::State::objectSlot(const Event& event) {
