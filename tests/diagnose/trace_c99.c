@@ -53,8 +53,8 @@ int sluice_c99_call_all_with(SluiceTraceLog* log, uint32_t none) {
     const SluiceTraceMemory facts = {{0}, {0}, 1, 0, 0};
     int wrong = 0;
     sluice_trace_flush(log);
-    wrong += sluice_trace_actor(log, (SluiceTraceActorKind)77, NULL) != SLUICE_TRACE_NONE;
-    wrong += sluice_trace_sync(log, (SluiceTraceSyncKind)77, NULL, 0, 0) != SLUICE_TRACE_NONE;
+    wrong += sluice_trace_actor(log, 77, NULL) != SLUICE_TRACE_NONE;
+    wrong += sluice_trace_sync(log, 77, NULL, 0, 0) != SLUICE_TRACE_NONE;
     wrong += log == NULL && sluice_trace_actor(log, SLUICE_TRACE_PROCESS, "p") != SLUICE_TRACE_NONE;
     wrong += log == NULL && sluice_trace_sync(log, SLUICE_TRACE_BINARY, "b", 0, 0) != SLUICE_TRACE_NONE;
     wrong += log == NULL && sluice_trace_resource(log, "r", 0, none) != SLUICE_TRACE_NONE;

@@ -100,15 +100,16 @@ SLUICE_TRACE_API uint64_t sluice_trace_now(void);
 /* ---- Who and what ------------------------------------------------------------------------------------------------ */
 
 /* Each returns the id of a new object, SLUICE_TRACE_NONE on failure. Names are for people; NULL is "". At most 1,024
- * actors. Layouts are VkImageLayout numbers (VK_IMAGE_LAYOUT_GENERAL is 1). */
-SLUICE_TRACE_API uint32_t sluice_trace_actor(SluiceTraceLog* log, SluiceTraceActorKind kind, const char* name);
-SLUICE_TRACE_API uint32_t sluice_trace_sync(SluiceTraceLog* log, SluiceTraceSyncKind kind, const char* name,
+ * actors. Layouts are VkImageLayout numbers (VK_IMAGE_LAYOUT_GENERAL is 1). kind: SluiceTraceActorKind or
+ * SluiceTraceSyncKind, as a plain integer so that an unknown value is refused and not undefined; so is verdict below. */
+SLUICE_TRACE_API uint32_t sluice_trace_actor(SluiceTraceLog* log, uint32_t kind, const char* name);
+SLUICE_TRACE_API uint32_t sluice_trace_sync(SluiceTraceLog* log, uint32_t kind, const char* name,
                                             uint64_t initial_value, uint32_t flags);
 SLUICE_TRACE_API uint32_t sluice_trace_resource(SluiceTraceLog* log, const char* name, uint32_t layout, uint32_t owner);
 /* A new object under the number of an old one: a fence that was reset, a semaphore that was re-created. For engines
  * that make one each frame: it keeps the ids few. */
-SLUICE_TRACE_API void sluice_trace_renew_sync(SluiceTraceLog* log, uint32_t sync, SluiceTraceSyncKind kind,
-                                              const char* name, uint64_t initial_value, uint32_t flags);
+SLUICE_TRACE_API void sluice_trace_renew_sync(SluiceTraceLog* log, uint32_t sync, uint32_t kind, const char* name,
+                                              uint64_t initial_value, uint32_t flags);
 
 /* ---- Order ------------------------------------------------------------------------------------------------------- */
 
@@ -137,9 +138,9 @@ SLUICE_TRACE_API void sluice_trace_layout(SluiceTraceLog* log, uint32_t actor, u
                                           uint32_t new_layout);
 /* One entry of the list that the next signal or wait of `actor` carries (SLUICE_TRACE_LISTED_ONLY). layout: 0, none. */
 SLUICE_TRACE_API void sluice_trace_names(SluiceTraceLog* log, uint32_t actor, uint32_t resource, uint32_t layout);
-/* What a look at the contents showed: which version was found. */
+/* What a look at the contents showed: which version was found; verdict is a SluiceTraceVerdict. */
 SLUICE_TRACE_API void sluice_trace_witness(SluiceTraceLog* log, uint32_t actor, uint32_t resource, uint64_t found,
-                                           SluiceTraceVerdict verdict);
+                                           uint32_t verdict);
 
 /* ---- Life -------------------------------------------------------------------------------------------------------- */
 

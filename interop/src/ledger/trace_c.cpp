@@ -119,8 +119,8 @@ void putMemory(SluiceTraceLog* log, EventKind kind, std::uint32_t actor, std::ui
     });
 }
 
-bool isSyncKind(SluiceTraceSyncKind kind) {
-    return static_cast<unsigned>(kind) <= SLUICE_TRACE_FENCE;
+bool isSyncKind(std::uint32_t kind) {
+    return kind <= SLUICE_TRACE_FENCE;
 }
 
 }  // namespace
@@ -180,8 +180,8 @@ uint64_t sluice_trace_now(void) {
             .count());
 }
 
-uint32_t sluice_trace_actor(SluiceTraceLog* log, SluiceTraceActorKind kind, const char* name) {
-    if (log == nullptr || static_cast<unsigned>(kind) > SLUICE_TRACE_PROCESS) {
+uint32_t sluice_trace_actor(SluiceTraceLog* log, uint32_t kind, const char* name) {
+    if (log == nullptr || kind > SLUICE_TRACE_PROCESS) {
         return SLUICE_TRACE_NONE;
     }
     const std::uint32_t id = take(log->actors, kMaxActors);
@@ -191,7 +191,7 @@ uint32_t sluice_trace_actor(SluiceTraceLog* log, SluiceTraceActorKind kind, cons
     return id;
 }
 
-uint32_t sluice_trace_sync(SluiceTraceLog* log, SluiceTraceSyncKind kind, const char* name, uint64_t initial_value,
+uint32_t sluice_trace_sync(SluiceTraceLog* log, uint32_t kind, const char* name, uint64_t initial_value,
                            uint32_t flags) {
     if (log == nullptr || !isSyncKind(kind)) {
         return SLUICE_TRACE_NONE;
@@ -201,7 +201,7 @@ uint32_t sluice_trace_sync(SluiceTraceLog* log, SluiceTraceSyncKind kind, const 
     return id;
 }
 
-void sluice_trace_renew_sync(SluiceTraceLog* log, uint32_t sync, SluiceTraceSyncKind kind, const char* name,
+void sluice_trace_renew_sync(SluiceTraceLog* log, uint32_t sync, uint32_t kind, const char* name,
                              uint64_t initial_value, uint32_t flags) {
     if (log != nullptr && isObject(sync) && isSyncKind(kind)) {
         guard([&] {
@@ -264,9 +264,8 @@ void sluice_trace_layout(SluiceTraceLog* log, uint32_t actor, uint32_t resource,
 void sluice_trace_names(SluiceTraceLog* log, uint32_t actor, uint32_t resource, uint32_t layout) {
     putObject(log, EventKind::Names, actor, resource, layout);
 }
-void sluice_trace_witness(SluiceTraceLog* log, uint32_t actor, uint32_t resource, uint64_t found,
-                          SluiceTraceVerdict verdict) {
-    if (static_cast<unsigned>(verdict) <= SLUICE_TRACE_TORN) {
+void sluice_trace_witness(SluiceTraceLog* log, uint32_t actor, uint32_t resource, uint64_t found, uint32_t verdict) {
+    if (verdict <= SLUICE_TRACE_TORN) {
         putObject(log, EventKind::Witness, actor, resource, found, static_cast<ActorId>(verdict));
     }
 }
