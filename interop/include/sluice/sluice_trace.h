@@ -101,7 +101,7 @@ SLUICE_TRACE_API uint64_t sluice_trace_now(void);
 
 /* Each returns the id of a new object, SLUICE_TRACE_NONE on failure. Names are for people; NULL is "". At most 1,024
  * actors. Layouts are VkImageLayout numbers (VK_IMAGE_LAYOUT_GENERAL is 1). kind: SluiceTraceActorKind or
- * SluiceTraceSyncKind, as a plain integer so that an unknown value is refused and not undefined; so is verdict below. */
+ * SluiceTraceSyncKind, as a plain integer so that an unknown value is refused and not undefined; verdict below too. */
 SLUICE_TRACE_API uint32_t sluice_trace_actor(SluiceTraceLog* log, uint32_t kind, const char* name);
 SLUICE_TRACE_API uint32_t sluice_trace_sync(SluiceTraceLog* log, uint32_t kind, const char* name,
                                             uint64_t initial_value, uint32_t flags);
