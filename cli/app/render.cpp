@@ -68,7 +68,10 @@ Status updateParticles(Run& run, std::int64_t frame) {
     if (run.session.fluid) {
         if (const Status status = run.session.fluid->setParticles(particleView(set.value())); !status) {
             noteProblem(run, status.error());
-            run.session.fluid.reset();
+            // Particles that were refused would leave the last ones in the picture; all else is FluidHost's to mend.
+            if (status.error().code == SLUICE_ERROR_INVALID_ARGUMENT) {
+                run.session.fluid.reset();
+            }
         }
     }
     return {};

@@ -146,6 +146,8 @@ FluidHostConfig EchoTest::config() const {
     FluidHostConfig config;
     config.width = kEchoWidth;
     config.height = kEchoHeight;
+    // Most of these tests are about what one renderer does; recovery_test is about the next.
+    config.recovery.attempts = 0;
     return config;
 }
 

@@ -182,7 +182,7 @@ active proctype VkLoss() { vk_lost = 1 }
 active proctype GlLoss() { gl_lost = 1 }
 #endif
 
-/* --------------------------------------------------------------------------- the host's thread: FluidHostImpl -- */
+/* --------------------------------------------------------------------------- the host's thread: RendererLife -- */
 hidden byte i;
 
 inline know_reached(v) {
@@ -332,7 +332,7 @@ active proctype Host() {
     byte slot[SETS];         /* FrameRing: the frame that still runs, or may */
     byte last;               /* RendererTimeline: the last frame that was submitted */
     mtype:result result;
-    bit known;               /* FluidHostImpl::lost_ */
+    bit known;               /* RendererLife::lost_ */
     bit flushed = 1;         /* every signal that was recorded is on its way */
     byte tick = 1, next = 1, k;
     byte was_frame, was_owed;

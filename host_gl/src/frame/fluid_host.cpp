@@ -1,299 +1,291 @@
 // SPDX-License-Identifier: MIT
 #include "sluice/host_gl/fluid_host.hpp"
 
-#include <epoxy/gl.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <optional>
+#include <exception>
+#include <new>
+#include <string>
 #include <utility>
 
-#include "compositor/capture.hpp"
-#include "compositor/composite.hpp"
-#include "compositor/draw_guard.hpp"
-#include "compositor/gpu_timer.hpp"
 #include "frame/check_info.hpp"
-#include "frame/connection.hpp"
-#include "sluice/abi_sizes.hpp"
-#include "sluice/format.hpp"
-#include "timeline/timeline_events.hpp"
+#include "frame/kept_scene.hpp"
+#include "frame/renderer_life.hpp"
 
 namespace sluice::host {
 
 namespace {
 
-/// The screen reads and writes 4 bytes of colour and 4 of depth and stencil a pixel.
-constexpr std::uint64_t kScreenBytes = 8;
+// Marks what was thrown; short, as the details are, so that it needs no memory.
+constexpr const char* kThrown = "FluidHost";
 
-std::uint64_t texelBytes(std::uint32_t format) {
-    const FormatInfo* info = findFormat(format);
-    return info != nullptr ? info->bytes_per_texel : 0;
+template <typename Body>
+Status withoutThrowing(Body body) {
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return Error{SLUICE_ERROR_OUT_OF_MEMORY, kThrown, "out of memory", ""};
+    } catch (const std::exception&) {
+        return Error{SLUICE_ERROR_INTERNAL, kThrown, "an exception", ""};
+    }
 }
 
+std::string frames(std::uint64_t count) {
+    return fmt::format("{} frame{}", count, count == 1 ? "" : "s");
+}
+
+/// One renderer after the other, and the numbers and the scene that they share.
 class FluidHostImpl final : public FluidHost {
   public:
-    explicit FluidHostImpl(const FluidHostConfig& config) : link_(config), timer_(config.trace) {}
-    FluidHostImpl(const FluidHostImpl&) = delete;
-    FluidHostImpl& operator=(const FluidHostImpl&) = delete;
-    ~FluidHostImpl() override {
-        // GL's own signals must have landed before the renderer is asked to end: its queue may wait for them, and it
-        // cannot know whether they are late or lost. The last frame's passes have ended then, too.
-        finishGl();
-        link_.close();
+    FluidHostImpl(const PluginLibrary& library, FluidHostConfig config)
+        : library_(library), config_(std::move(config)), recovery_(config_.recovery) {}
+
+    [[nodiscard]] Status start() { return begin(); }
+
+    [[nodiscard]] const SluiceRendererInfo& info() const override { return info_; }
+    [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height) override {
+        return caught([&] { return replaceImages(width, height); });
     }
-
-    [[nodiscard]] Status start(const PluginLibrary& library);
-
-    [[nodiscard]] const SluiceRendererInfo& info() const override { return link_.info; }
-    [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height) override;
     [[nodiscard]] Status setParticles(const SluiceParticles& particles) override {
-        return link_.renderer.setParticles(particles);
+        return caught([&] { return give([&] { return life_->setParticles(particles); }, particles); });
     }
     [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment) override {
-        return link_.renderer.setEnvironment(environment);
+        return caught([&] { return give([&] { return life_->setEnvironment(environment); }, environment); });
     }
-    [[nodiscard]] Status submit(const Screen& screen, const FrameInput& input) override;
-    [[nodiscard]] Status composite(const Screen& screen) override;
+    [[nodiscard]] Status submit(const Screen& screen, const FrameInput& input) override {
+        return caught([&]() -> Status {
+            ++without_fluid_;
+            if (Status status = revive(); !status) {
+                return status;
+            }
+            Status status = life_->submit(screen, input);
+            submitted_ = status ? base_ + life_->frame() : submitted_;
+            return judged(std::move(status));
+        });
+    }
+    [[nodiscard]] Status composite(const Screen& screen) override {
+        return caught([&]() -> Status {
+            if (recovery_.down()) {
+                return whileDown("composite");
+            }
+            Status status = life_->composite(screen);
+            if (status) {
+                without_fluid_ = 0;
+                recovery_.frameWithFluid();
+            }
+            return judged(std::move(status));
+        });
+    }
     [[nodiscard]] std::uint64_t frame() const override { return submitted_; }
-    [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame) override {
-        Result<SluiceFrameStats> stats = link_.renderer.stats(frame, link_.config.wait_timeout_ns);
-        noteLoss(stats ? 0 : stats.error().code);
-        timer_.collect();
-        return stats;
-    }
+    [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame) override;
     [[nodiscard]] std::uint32_t texture(SluiceImageRole role) const override {
-        return link_.services.images().texture(role,
-                                               submitted_ == 0 ? 0 : imageSetOf(submitted_, link_.info.image_sets));
+        return life_ && !recovery_.down() ? life_->texture(role) : 0;
     }
+    [[nodiscard]] std::uint32_t renderers() const override { return renderers_; }
 
   private:
-    /// Remembers that the device is lost: from then on no GL wait is recorded for it (docs/protocol.md).
-    void noteLoss(std::int32_t code) {
-        if (!lost_ && code == SLUICE_ERROR_DEVICE_LOST) {
-            lost_ = true;
-            if (feed() != nullptr) {
-                feed()->rendererLost();
-            }
-        }
-    }
-    /// nullptr without a ledger.
-    [[nodiscard]] ledger::HandOffFeed* feed() { return link_.feed ? &*link_.feed : nullptr; }
-    void tellSubmit(std::uint64_t frame);
-    /// Waits until the GL command stream has ended and records its passes.
-    void finishGl();
-    [[nodiscard]] Status checkScreen(const Screen& screen, const char* call) const;
-    void capture(const Screen& screen, const SluiceCamera& camera, std::uint64_t frame);
-    [[nodiscard]] Status callRenderer(const FrameInput& input, std::uint64_t frame);
+    /// Without recovery the present renderer answers for itself, whatever has become of it.
+    [[nodiscard]] bool recovers() const { return config_.recovery.attempts > 0; }
+    template <typename Body>
+    [[nodiscard]] Status caught(Body body);
+    [[nodiscard]] Status begin();
+    [[nodiscard]] Status beginWithScene();
+    [[nodiscard]] Status replaceImages(std::uint32_t width, std::uint32_t height);
+    template <typename Call, typename Value>
+    [[nodiscard]] Status give(Call call, const Value& value);
+    /// Success when there is a renderer to submit to, made now if it has to be.
+    [[nodiscard]] Status revive();
+    [[nodiscard]] Status tryAgain();
+    /// `status` again, after a look at what it has done to the renderer.
+    [[nodiscard]] Status judged(Status status);
+    void fault(const Error& cause);
+    [[nodiscard]] Error whileDown(const char* call) const;
+    void log(SluiceLogLevel level, const std::string& text);
 
-    Connection link_;
-    GpuTimer timer_;
-    Compositor compositor_;
-    std::uint64_t next_ = 1;       ///< number of the next frame
-    std::uint64_t submitted_ = 0;  ///< the last frame that the renderer accepted
-    bool composable_ = false;      ///< that frame waits for its composite
-    bool usable_ = false;          ///< false after a failed resize
-    bool lost_ = false;            ///< the renderer has said that its device is lost
+    const PluginLibrary& library_;
+    FluidHostConfig config_;
+    Recovery recovery_;
+    KeptScene scene_;
+    SluiceRendererInfo info_{};  ///< of the present renderer, or else of the last
+    std::unique_ptr<RendererLife> life_;
+    std::uint64_t base_ = 0;  ///< numbers that earlier renderers have spent
+    std::uint64_t submitted_ = 0;
+    std::uint32_t renderers_ = 0;
+    std::uint64_t without_fluid_ = 0;  ///< submits since the last composite
+    std::uint64_t down_since_ns_ = 0;
+    std::string cause_;
 };
 
-Status FluidHostImpl::start(const PluginLibrary& library) {
-    if (Status status = checkDrawable(); !status) {
-        return status;
+/// What ran out in the middle of a frame may have left the hand-off half done, so that renderer is not asked again.
+template <typename Body>
+Status FluidHostImpl::caught(Body body) {
+    Status status = withoutThrowing(body);
+    if (!status && status.error().thing == kThrown) {
+        const Status told = withoutThrowing([&]() -> Status {
+            fault(status.error());
+            return {};
+        });
+        if (!told && life_ && recovers()) {
+            recovery_.fault();  // all that is lost is its line in the log
+        }
     }
-    Result<Compositor> compositor = Compositor::create();
-    if (!compositor) {
-        return compositor.error();
-    }
-    compositor_ = std::move(compositor).value();
-    Status status = link_.open(library);
-    usable_ = status.ok();
     return status;
 }
 
-void FluidHostImpl::finishGl() {
-    const bool on_gpu = link_.timeline != nullptr && (link_.timeline->kind() == SLUICE_TIMELINE_NATIVE ||
-                                                      link_.timeline->kind() == SLUICE_TIMELINE_BINARY);
-    // A GL wait that was recorded before the device was lost might never end.
-    if (!(lost_ && on_gpu)) {
-        const std::uint64_t begin = traceClock(link_.config.trace, feed());
-        glFinish();
-        if (feed() != nullptr) {
-            feed()->glFinished(begin);
+Status FluidHostImpl::begin() {
+    FluidHostConfig config = config_;
+    if (config.fault && base_ > 0) {
+        config.fault->frame -= std::min(config.fault->frame, base_);
+        if (config.fault->frame == 0) {
+            config.fault.reset();
         }
     }
-    timer_.collect();
-}
-
-Status FluidHostImpl::resize(std::uint32_t width, std::uint32_t height) {
-    if (Status status = checkExtent(width, height); !status) {
+    auto life = std::make_unique<RendererLife>(config);
+    if (Status status = life->start(library_); !status) {
         return status;
     }
-    // Nothing of the old images may be in use on this side either.
-    finishGl();
-    composable_ = false;
-    Status status = link_.resize(width, height);
-    usable_ = status.ok();
-    return status;
-}
-
-Status FluidHostImpl::checkScreen(const Screen& screen, const char* call) const {
-    if (!usable_) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, call, "the renderer has no images since the last resize failed",
-                     "resize again, or destroy the FluidHost"};
-    }
-    if (lost_) {
-        return Error{SLUICE_ERROR_DEVICE_LOST, call, "the renderer has lost its device",
-                     "destroy the FluidHost and create it again"};
-    }
-    if (screen.width() != link_.info.width || screen.height() != link_.info.height) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, call,
-                     fmt::format("expected a screen of {}x{}, found {}x{}", link_.info.width, link_.info.height,
-                                 screen.width(), screen.height()),
-                     "call FluidHost::resize when the screen's size changes"};
-    }
-    return checkDrawable();
-}
-
-void FluidHostImpl::capture(const Screen& screen, const SluiceCamera& camera, std::uint64_t frame) {
-    const ImageTable& images = link_.services.images();
-    const std::uint32_t set = imageSetOf(frame, link_.info.image_sets);
-    const std::uint32_t colour = images.texture(SLUICE_IMAGE_HOST_COLOUR, set);
-    const std::uint32_t depth = images.texture(SLUICE_IMAGE_HOST_DEPTH, set);
-    const std::uint64_t bytes = std::uint64_t{link_.info.width} * link_.info.height *
-                                (kScreenBytes + texelBytes(link_.info.formats[SLUICE_IMAGE_HOST_COLOUR]) +
-                                 texelBytes(link_.info.formats[SLUICE_IMAGE_HOST_DEPTH]));
-    timer_.begin("capture", frame, bytes);
-    captureScreen(screen.framebuffer(), link_.info.width, link_.info.height, colour, link_.linear ? 0 : depth);
-    if (link_.linear) {
-        std::array<float, 16> projection{};
-        std::copy_n(camera.projection, projection.size(), projection.begin());
-        link_.linear->run(screen.framebuffer(), depth, projection);
-    }
-    timer_.end();
-}
-
-Status FluidHostImpl::callRenderer(const FrameInput& input, std::uint64_t frame) {
-    auto call = sized<SluiceFrame>();
-    call.image_set = imageSetOf(frame, link_.info.image_sets);
-    call.frame = frame;
-    call.wait_value = gbufferWritten(frame);
-    call.signal_value = fluidWritten(frame);
-    call.outputs = input.outputs;
-    call.flags = input.flags;
-    call.camera = input.camera;
-    call.sky = input.sky;
-    call.fluid = input.fluid;
-    const std::optional<FaultPlan>& fault = link_.config.fault;
-    if (fault && fault->kind == FaultKind::SkipWait && fault->direction == SLUICE_HOST_TO_RENDERER &&
-        fault->frame == frame) {
-        call.flags |= SLUICE_FRAME_SKIP_WAIT;
-    }
-    tellSubmit(frame);
-    const std::uint64_t begin = traceClock(link_.config.trace);
-    Status status = link_.renderer.submit(call);
-    traceStep(link_.config.trace, SLUICE_TRACE_SUBMIT, SLUICE_TRACK_HOST_CPU, SLUICE_RENDERER_TO_HOST,
-              fluidWritten(frame), begin, "submit_frame");
-    return status;
-}
-
-void FluidHostImpl::tellSubmit(std::uint64_t frame) {
-    if (feed() != nullptr && !feed()->submits(frame)) {
-        link_.services.log(SLUICE_LOG_WARNING,
-                           "ledger: off from here on: the renderer sends no trace events of its queue");
-    }
-}
-
-Status FluidHostImpl::submit(const Screen& screen, const FrameInput& input) {
-    composable_ = false;
-    if (Status status = checkScreen(screen, "submit"); !status) {
-        return status;
-    }
-    timer_.collect();
-    const std::uint64_t frame = next_;
-    const std::vector<std::uint32_t> textures =
-        link_.services.images().textures(imageSetOf(frame, link_.info.image_sets));
-    if (const std::uint64_t owed = link_.sets->owedBefore(frame); owed != 0) {
-        if (Status status = link_.timeline->wait(owed, link_.config.wait_timeout_ns, textures); !status) {
-            noteLoss(status.error().code);
-            return status;
-        }
-        link_.sets->reached(owed);
-    }
-    if (Status status = link_.sets->beginCapture(frame); !status) {
-        return status;
-    }
-    if (feed() != nullptr) {
-        feed()->captureBegins(frame);
-    }
-    capture(screen, input.camera, frame);
-    if (feed() != nullptr) {
-        feed()->captureEnds(frame);
-    }
-    if (Status status = link_.timeline->signal(gbufferWritten(frame), textures); !status) {
-        link_.sets->cancelCapture(frame);
-        if (feed() != nullptr) {
-            feed()->takenBack(frame);
-        }
-        return status;
-    }
-    // From here on the values of this frame are spent, whatever the renderer says.
-    next_ = frame + 1;
-    if (Status status = link_.sets->endCapture(frame); !status) {
-        return status;
-    }
-    if (Status status = callRenderer(input, frame); !status) {
-        noteLoss(status.error().code);
-        link_.sets->abandoned(frame);
-        if (feed() != nullptr) {
-            feed()->takenBack(frame);
-        }
-        return status;
-    }
-    if (Status status = link_.sets->promised(frame); !status) {
-        return status;
-    }
-    submitted_ = frame;
-    composable_ = true;
+    info_ = life->info();
+    life_ = std::move(life);
+    ++renderers_;
     return {};
 }
 
-Status FluidHostImpl::composite(const Screen& screen) {
-    if (Status status = checkScreen(screen, "composite"); !status) {
+Status FluidHostImpl::beginWithScene() {
+    if (Status status = begin(); !status) {
         return status;
     }
-    if (!composable_) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "composite", "no submitted frame waits for its composite",
-                     "call it once after each submit that succeeded"};
+    if (const auto environment = scene_.environment()) {
+        if (Status status = life_->setEnvironment(&*environment); !status) {
+            return status;
+        }
     }
-    composable_ = false;
-    const std::uint64_t frame = submitted_;
-    const ImageTable& images = link_.services.images();
-    const std::uint32_t set = imageSetOf(frame, link_.info.image_sets);
-    const std::vector<std::uint32_t> textures = images.textures(set);
-    if (Status status = link_.timeline->wait(fluidWritten(frame), link_.config.wait_timeout_ns, textures); !status) {
-        noteLoss(status.error().code);
+    const auto particles = scene_.particles();
+    return particles ? life_->setParticles(*particles) : Status{};
+}
+
+Status FluidHostImpl::replaceImages(std::uint32_t width, std::uint32_t height) {
+    if (Status status = checkExtent(width, height); !status) {
         return status;
     }
-    link_.sets->reached(fluidWritten(frame));
-    if (Status status = link_.sets->beginComposite(frame); !status) {
-        return status;
+    config_.width = width;
+    config_.height = height;
+    if (recovery_.down()) {
+        // A size is a new beginning: what had no room at the last one may have it at this.
+        recovery_.forget();
+        return tryAgain();
     }
-    const std::uint64_t bytes = std::uint64_t{link_.info.width} * link_.info.height *
-                                (2 * kScreenBytes + texelBytes(link_.info.formats[SLUICE_IMAGE_FLUID_COLOUR]) +
-                                 texelBytes(link_.info.formats[SLUICE_IMAGE_FLUID_DEPTH]));
-    if (feed() != nullptr) {
-        feed()->compositeReads(frame);
+    Status status = life_->resize(width, height);
+    if (status) {
+        info_ = life_->info();
     }
-    timer_.begin("composite", frame, bytes);
-    compositor_.draw(screen.framebuffer(), link_.info.width, link_.info.height,
-                     images.texture(SLUICE_IMAGE_FLUID_COLOUR, set), images.texture(SLUICE_IMAGE_FLUID_DEPTH, set));
-    timer_.end();
-    // No texture is named: the set stays with GL until the next odd value gives it away (docs/protocol.md). The picture
-    // is drawn, and that value implies this one, so a failure here is news but not a failed composite.
-    if (const Status status = link_.timeline->signal(compositeRead(frame), {}); !status) {
-        link_.services.log(SLUICE_LOG_WARNING, status.error().message());
+    return judged(std::move(status));
+}
+
+template <typename Call, typename Value>
+Status FluidHostImpl::give(Call call, const Value& value) {
+    Status status = recovery_.down() ? Status{} : judged(call());
+    const bool refused = !status && status.error().code == SLUICE_ERROR_INVALID_ARGUMENT;
+    if (recovers() && !refused) {
+        scene_.keep(value);
     }
-    return link_.sets->endComposite(frame);
+    return status;
+}
+
+Status FluidHostImpl::revive() {
+    switch (recovery_.nextFrame()) {
+        case Recovery::Step::None:
+            return {};
+        case Recovery::Step::Wait:
+        case Recovery::Step::GivenUp:
+            return whileDown("submit");
+        case Recovery::Step::Try:
+            break;
+    }
+    return tryAgain();
+}
+
+Status FluidHostImpl::tryAgain() {
+    if (life_) {
+        base_ += life_->numbersSpent();
+        life_.reset();
+    }
+    const std::uint64_t began = monotonicNanoseconds();
+    const Status status = withoutThrowing([this] { return beginWithScene(); });
+    if (!status) {
+        life_.reset();
+    }
+    recovery_.tried(status.ok());
+    const auto ms = [](std::uint64_t from) { return static_cast<double>(monotonicNanoseconds() - from) * 1e-6; };
+    if (status) {
+        log(SLUICE_LOG_WARNING,
+            fmt::format("renderer: here again after {} without fluid and {:.0f} ms, of which its creation took {:.0f} "
+                        "ms (try {} of {})",
+                        frames(without_fluid_ - std::min<std::uint64_t>(without_fluid_, 1)), ms(down_since_ns_),
+                        ms(began), recovery_.tries(), config_.recovery.attempts));
+        return {};
+    }
+    cause_ = status.error().message();
+    const std::string next = recovery_.givenUp() ? std::string("given up; destroy the FluidHost and create it again")
+                                                 : fmt::format("the next one in {}", frames(recovery_.framesToGo()));
+    log(SLUICE_LOG_WARNING, fmt::format("renderer: try {} of {} failed, {}: {}", recovery_.tries(),
+                                        config_.recovery.attempts, next, cause_));
+    return whileDown("submit");
+}
+
+Status FluidHostImpl::judged(Status status) {
+    if (!status && life_ && life_->fault()) {
+        fault(*life_->fault());
+    }
+    return status;
+}
+
+void FluidHostImpl::fault(const Error& cause) {
+    if (!recovers() || !life_ || recovery_.down()) {
+        return;
+    }
+    recovery_.fault();
+    down_since_ns_ = monotonicNanoseconds();
+    cause_ = cause.message();
+    log(SLUICE_LOG_WARNING,
+        recovery_.givenUp()
+            ? fmt::format("renderer: useless once more after {} tries, given up: {}", recovery_.tries(), cause_)
+            : fmt::format("renderer: useless from frame {} on, created again in {} (try {} of {}): {}", submitted_ + 1,
+                          frames(recovery_.framesToGo()), recovery_.tries() + 1, config_.recovery.attempts, cause_));
+}
+
+Error FluidHostImpl::whileDown(const char* call) const {
+    return Error{SLUICE_ERROR_DEVICE_LOST, call, "there is no renderer: " + cause_,
+                 recovery_.givenUp() ? "destroy the FluidHost and create it again" : "it is created again"};
+}
+
+void FluidHostImpl::log(SluiceLogLevel level, const std::string& text) {
+    // The renderer's threads may log, too, and its services let one line through at a time.
+    if (life_) {
+        life_->log(level, text);
+    } else if (config_.log) {
+        config_.log(level, text);
+    }
+}
+
+Result<SluiceFrameStats> FluidHostImpl::stats(std::uint64_t frame) {
+    SluiceFrameStats found{};
+    const Status status = caught([&]() -> Status {
+        if (recovers() && (recovery_.down() || frame <= base_)) {
+            return Error{SLUICE_ERROR_DEVICE_LOST, "stats", fmt::format("the renderer of frame {} is gone", frame), ""};
+        }
+        Result<SluiceFrameStats> stats = life_->stats(frame - base_);
+        if (!stats) {
+            return judged(stats.error());
+        }
+        found = stats.value();
+        found.frame = frame;
+        return {};
+    });
+    if (!status) {
+        return status.error();
+    }
+    return found;
 }
 
 }  // namespace
@@ -302,8 +294,12 @@ Result<std::unique_ptr<FluidHost>> FluidHost::create(const PluginLibrary& librar
     if (Status status = checkConfig(config); !status) {
         return status.error();
     }
-    auto host = std::make_unique<FluidHostImpl>(config);
-    if (Status status = host->start(library); !status) {
+    std::unique_ptr<FluidHostImpl> host;
+    const Status status = withoutThrowing([&] {
+        host = std::make_unique<FluidHostImpl>(library, config);
+        return host->start();
+    });
+    if (!status) {
         return status.error();
     }
     return std::unique_ptr<FluidHost>(std::move(host));

@@ -110,7 +110,29 @@ SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::ui
         sluice_shim_control.stall_value = stalled = 0;
         return SLUICE_TIMEOUT;
     }
+    if (value >= sluice_shim_control.time_out_from && value <= sluice_shim_control.time_out_to) {
+        return SLUICE_TIMEOUT;
+    }
     return sluice_shim_control.drop_host_wait ? SLUICE_OK : real->timeline_wait(renderer, value, timeout_ns);
+}
+
+SluiceResult resize(SluiceRenderer* renderer, std::uint32_t width, std::uint32_t height, SluiceError* error) {
+    if (sluice_shim_control.fail_resizes > 0) {
+        --sluice_shim_control.fail_resizes;
+        return refuse(error, SLUICE_ERROR_OUT_OF_MEMORY, "the shim finds no memory for these images");
+    }
+    return real->resize(renderer, width, height, error);
+}
+
+SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* particles, SluiceError* error) {
+    sluice_shim_control.particles = particles->count;
+    sluice_shim_control.first_coordinate = particles->position[0];
+    return real->set_particles(renderer, particles, error);
+}
+
+SluiceResult setEnvironment(SluiceRenderer* renderer, const SluiceEnvironment* environment, SluiceError* error) {
+    sluice_shim_control.environment_width = environment != nullptr ? environment->width : 0;
+    return real->set_environment(renderer, environment, error);
 }
 
 void destroy(SluiceRenderer* renderer) {
@@ -135,6 +157,9 @@ extern "C" SLUICE_SHIM_EXPORT const SluiceRendererApi* sluice_renderer_entry(std
     table.struct_size = std::min<std::uint32_t>(real->struct_size, sizeof(table));
     table.create = create;
     table.info = info;
+    table.resize = resize;
+    table.set_particles = setParticles;
+    table.set_environment = setEnvironment;
     table.submit_frame = submitFrame;
     table.poll = poll;
     table.timeline_wait = timelineWait;

@@ -15,16 +15,21 @@ struct ShimControl {
     std::uint32_t refuses = 0;      ///< bit per SluiceTimelineKind: create fails when it is asked for
     std::uint64_t lose_submit = 0;  ///< submit_frame of this frame says that the device is lost
     std::uint64_t lose_poll = 0;    ///< poll of this frame says so
-    std::uint64_t fail_from = 0, fail_to = 0;  ///< submit_frame of these frames fails inside the real renderer
-    std::uint64_t stall_value = 0;             ///< timeline_wait for this value does not see it ...
-    std::uint64_t stall_ms = 0;                ///< ... until so long after the first call
-    bool mute = false;                         ///< the renderer is not given the trace service
-    bool drop_host_wait = false;               ///< timeline_wait returns at once
-    std::uint32_t waits = 0;                   ///< calls of timeline_wait
-    std::uint32_t submits = 0;                 ///< calls of submit_frame
-    std::uint32_t destroys = 0;                ///< calls of destroy with a renderer
-    std::uint32_t attempt_count = 0;           ///< calls of create
-    std::array<std::uint32_t, 8> attempts{};   ///< SluiceTimelineKind of each
+    std::uint64_t fail_from = 0, fail_to = 0;          ///< submit_frame of these frames fails inside the real renderer
+    std::uint64_t stall_value = 0;                     ///< timeline_wait for this value does not see it ...
+    std::uint64_t stall_ms = 0;                        ///< ... until so long after the first call
+    std::uint64_t time_out_from = 0, time_out_to = 0;  ///< timeline_wait for these values says that time is up
+    std::uint32_t fail_resizes = 0;           ///< so many calls of resize fail in the middle: there are no images
+    bool mute = false;                        ///< the renderer is not given the trace service
+    bool drop_host_wait = false;              ///< timeline_wait returns at once
+    std::uint32_t waits = 0;                  ///< calls of timeline_wait
+    std::uint32_t submits = 0;                ///< calls of submit_frame
+    std::uint32_t destroys = 0;               ///< calls of destroy with a renderer
+    std::uint32_t particles = 0;              ///< count of the last set_particles
+    float first_coordinate = 0.0F;            ///< its first coordinate
+    std::uint32_t environment_width = 0;      ///< of the last set_environment
+    std::uint32_t attempt_count = 0;          ///< calls of create
+    std::array<std::uint32_t, 8> attempts{};  ///< SluiceTimelineKind of each
 };
 
 }  // namespace sluice::host::test

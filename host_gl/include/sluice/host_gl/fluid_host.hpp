@@ -11,6 +11,7 @@
 
 #include "sluice/host_gl/fault_plan.hpp"
 #include "sluice/host_gl/plugin_library.hpp"
+#include "sluice/host_gl/recovery.hpp"
 #include "sluice/host_gl/screen.hpp"
 #include "sluice/negotiate.hpp"
 #include "sluice/plugin.h"
@@ -36,6 +37,7 @@ struct FluidHostConfig {
     /// passes its deadline. Must outlive the FluidHost, and is of no other; nullptr: off.
     ledger::LiveLedger* ledger = nullptr;
     std::optional<FaultPlan> fault;  ///< for tests: one thing that goes wrong
+    RecoveryPolicy recovery;
     std::function<void(SluiceLogLevel, std::string_view)> log;
 };
 
@@ -50,7 +52,12 @@ struct FrameInput {
 
 /// Owns one renderer, the imported images and the host's end of the timelines. Not thread-safe; every call needs the GL
 /// context of create() current, and so does destruction, which waits until GL has finished. Every call leaves the GL
-/// state as it found it.
+/// state as it found it. No call throws: memory that runs out is SLUICE_ERROR_OUT_OF_MEMORY.
+///
+/// A renderer that has become useless (its device is lost, a resize found no memory, deadlines pass in a row ...) is
+/// destroyed and created again by submit(), as FluidHostConfig::recovery says; that submit() takes as long as create()
+/// does. Until then submit() fails, at once, and the frames are the host's alone. The new renderer gets the particles
+/// and the environment that were set last, of which the FluidHost keeps a copy. What happens is logged, a line each.
 class FluidHost {
   public:
     [[nodiscard]] static Result<std::unique_ptr<FluidHost>> create(const PluginLibrary& library,
@@ -68,12 +75,14 @@ class FluidHost {
     /// Waits for the frame submitted last and draws the fluid into the screen with the screen's own depth test, writing
     /// depth. On failure the screen is untouched.
     [[nodiscard]] virtual Status composite(const Screen& screen) = 0;
-    /// The number of the frame submitted last, 0 before the first.
+    /// The number of the frame submitted last, 0 before the first. Numbers go on over a new renderer.
     [[nodiscard]] virtual std::uint64_t frame() const = 0;
     /// Waits for that frame.
     [[nodiscard]] virtual Result<SluiceFrameStats> stats(std::uint64_t frame) = 0;
     /// The GL texture that holds `role` in the set used last, 0 if it is not shared.
     [[nodiscard]] virtual std::uint32_t texture(SluiceImageRole role) const = 0;
+    /// Renderers created so far: more than 1 when one has been lost.
+    [[nodiscard]] virtual std::uint32_t renderers() const = 0;
 };
 
 /// Host services for calls that need no FluidHost (describe, probe_format); valid while the object lives and its GL

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+#include "frame/kept_scene.hpp"
+
+#include <cstddef>
+
+#include "sluice/abi_sizes.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+void copy(std::vector<float>& to, const float* from, std::size_t count) {
+    if (from == nullptr) {
+        to.clear();
+    } else {
+        to.assign(from, from + count);
+    }
+}
+
+const float* view(const std::vector<float>& from) {
+    return from.empty() ? nullptr : from.data();
+}
+
+}  // namespace
+
+void KeptScene::keep(const SluiceParticles& particles) {
+    // Only what the renderer has been able to read may be read here.
+    const SluiceParticles known = readAbiStruct(particles);
+    const std::size_t floats = std::size_t{known.count} * 3;
+    has_particles_ = false;  // should memory run out half-way
+    copy(position_, known.position, floats);
+    copy(velocity_, known.velocity, floats);
+    copy(colour_, known.colour, floats);
+    particle_facts_ = known;
+    has_particles_ = true;
+}
+
+void KeptScene::keep(const SluiceEnvironment* environment) {
+    environment_facts_ = SluiceEnvironment{};
+    pixels_.clear();
+    if (environment == nullptr) {
+        return;
+    }
+    const SluiceEnvironment known = readAbiStruct(*environment);
+    copy(pixels_, known.pixels, std::size_t{known.width} * known.height * 3);
+    environment_facts_ = known;
+}
+
+std::optional<SluiceParticles> KeptScene::particles() const {
+    if (!has_particles_) {
+        return std::nullopt;
+    }
+    auto particles = sized<SluiceParticles>();
+    particles.count = particle_facts_.count;
+    particles.radius = particle_facts_.radius;
+    particles.position = view(position_);
+    particles.velocity = view(velocity_);
+    particles.colour = view(colour_);
+    return particles;
+}
+
+std::optional<SluiceEnvironment> KeptScene::environment() const {
+    if (pixels_.empty()) {
+        return std::nullopt;
+    }
+    auto environment = sized<SluiceEnvironment>();
+    environment.width = environment_facts_.width;
+    environment.height = environment_facts_.height;
+    environment.pixels = pixels_.data();
+    return environment;
+}
+
+}  // namespace sluice::host

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copies of what the caller has given to the renderer, for the renderer after it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "sluice/plugin.h"
+
+namespace sluice::host {
+
+/// The particles and the environment that were set last. Costs one copy of the arrays a call.
+class KeptScene {
+  public:
+    void keep(const SluiceParticles& particles);
+    /// nullptr: the procedural sky.
+    void keep(const SluiceEnvironment* environment);
+
+    /// Views of the copies, valid until the next keep(); empty when nothing was set.
+    [[nodiscard]] std::optional<SluiceParticles> particles() const;
+    [[nodiscard]] std::optional<SluiceEnvironment> environment() const;
+
+  private:
+    bool has_particles_ = false;
+    SluiceParticles particle_facts_{};
+    std::vector<float> position_, velocity_, colour_;
+    SluiceEnvironment environment_facts_{};
+    std::vector<float> pixels_;
+};
+
+}  // namespace sluice::host

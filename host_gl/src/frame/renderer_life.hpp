@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// One renderer from its creation to its end, and the frames of that time.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "compositor/composite.hpp"
+#include "compositor/gpu_timer.hpp"
+#include "frame/connection.hpp"
+#include "sluice/host_gl/fluid_host.hpp"
+
+namespace sluice::host {
+
+/// Frames are counted from 1, as the renderer counts them. Every call means what the same call of FluidHost means, and
+/// needs the GL context of start() current, as does destruction.
+class RendererLife {
+  public:
+    explicit RendererLife(const FluidHostConfig& config) : link_(config), timer_(config.trace) {}
+    RendererLife(const RendererLife&) = delete;
+    RendererLife& operator=(const RendererLife&) = delete;
+    ~RendererLife();
+
+    [[nodiscard]] Status start(const PluginLibrary& library);
+    [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height);
+    [[nodiscard]] Status setParticles(const SluiceParticles& particles);
+    [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment);
+    [[nodiscard]] Status submit(const Screen& screen, const FrameInput& input);
+    [[nodiscard]] Status composite(const Screen& screen);
+    [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame);
+    [[nodiscard]] std::uint32_t texture(SluiceImageRole role) const;
+
+    [[nodiscard]] const SluiceRendererInfo& info() const { return link_.info; }
+    [[nodiscard]] std::uint64_t frame() const { return submitted_; }
+    /// Numbers of frames that were given away, whether the renderer took them or not.
+    [[nodiscard]] std::uint64_t numbersSpent() const { return next_ - 1; }
+    /// Why only another renderer can bring fluid again; empty while this one can.
+    [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
+    /// What is logged goes where the renderer's own lines go.
+    void log(SluiceLogLevel level, std::string_view text) { link_.services.log(level, text); }
+
+  private:
+    /// Remembers that the device is lost: from then on no GL wait is recorded for it (docs/protocol.md).
+    void noteLoss(const Error& error);
+    /// `status` again. A failure that is no caller's costs a strike, and the last strike is a fault.
+    [[nodiscard]] Status strike(Status status);
+    /// `status` again. A failure that is no caller's is a fault.
+    [[nodiscard]] Status fatal(Status status);
+    /// nullptr without a ledger.
+    [[nodiscard]] ledger::HandOffFeed* feed() { return link_.feed ? &*link_.feed : nullptr; }
+    void tellSubmit(std::uint64_t frame);
+    /// Waits until the GL command stream has ended and records its passes.
+    void finishGl();
+    [[nodiscard]] Status checkScreen(const Screen& screen, const char* call) const;
+    void capture(const Screen& screen, const SluiceCamera& camera, std::uint64_t frame);
+    [[nodiscard]] Status handOver(const Screen& screen, const FrameInput& input);
+    [[nodiscard]] Status callRenderer(const FrameInput& input, std::uint64_t frame);
+    void draw(const Screen& screen, std::uint64_t frame);
+
+    Connection link_;
+    GpuTimer timer_;
+    Compositor compositor_;
+    std::uint64_t next_ = 1;       ///< number of the next frame
+    std::uint64_t submitted_ = 0;  ///< the last frame that the renderer accepted
+    bool composable_ = false;      ///< that frame waits for its composite
+    bool usable_ = false;          ///< false after a failed resize
+    bool lost_ = false;            ///< the renderer has said that its device is lost
+    std::uint32_t strikes_ = 0;    ///< frames in a row without fluid for the renderer's sake
+    std::optional<Error> fault_;
+};
+
+}  // namespace sluice::host

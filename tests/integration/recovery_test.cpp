@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// A renderer that has become useless: the host's frames go on, and another renderer takes its place.
+#include <epoxy/gl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "gl_test.hpp"
+#include "ledger_rig.hpp"
+#include "sluice/abi_sizes.hpp"
+#include "sluice/host_gl/recovery.hpp"
+
+namespace sluice::host::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+using Step = Recovery::Step;
+
+TEST(RecoveryPolicy, TriesAfterOneTwoFourFramesAndThenGivesUp) {
+    Recovery recovery({.attempts = 3, .strikes = 2, .settled_frames = 4});
+    EXPECT_EQ(recovery.nextFrame(), Step::None);
+    recovery.fault();
+    std::vector<std::uint64_t> tried_at;
+    for (std::uint64_t frame = 1; frame <= 20; ++frame) {
+        if (recovery.nextFrame() == Step::Try) {
+            tried_at.push_back(frame);
+            recovery.tried(false);
+        }
+    }
+    EXPECT_THAT(tried_at, ElementsAre(1, 3, 7));
+    EXPECT_TRUE(recovery.givenUp());
+    EXPECT_EQ(recovery.nextFrame(), Step::GivenUp);
+    recovery.forget();
+    EXPECT_FALSE(recovery.down());
+}
+
+TEST(RecoveryPolicy, CountsTriesFromTheBeginningOnlyWhenTheRendererHasSettled) {
+    Recovery recovery({.attempts = 3, .strikes = 2, .settled_frames = 4});
+    for (std::uint32_t round = 0; round < 3; ++round) {
+        recovery.fault();
+        recovery.fault();
+        std::uint32_t frames = 1;
+        while (recovery.nextFrame() == Step::Wait) {
+            ++frames;
+        }
+        EXPECT_EQ(frames, 1U << round);
+        recovery.tried(true);
+        recovery.frameWithFluid();
+    }
+    EXPECT_EQ(recovery.tries(), 3U);
+    for (int i = 0; i < 4; ++i) {
+        recovery.frameWithFluid();
+    }
+    EXPECT_EQ(recovery.tries(), 0U);
+    recovery.fault();
+    EXPECT_EQ(recovery.nextFrame(), Step::Try);
+}
+
+class RecoveryTest : public LedgerTest {
+  protected:
+    [[nodiscard]] FluidHostConfig recovering(SluiceTimelineKind timeline) {
+        FluidHostConfig wanted = config();
+        wanted.timeline = timeline;
+        wanted.recovery = RecoveryPolicy{};
+        return wanted;
+    }
+    void begin(const FluidHostConfig& wanted) {
+        ASSERT_NO_FATAL_FAILURE(makeHost(wanted));
+        ASSERT_NO_FATAL_FAILURE(makeScreen(kEchoWidth, kEchoHeight));
+    }
+    /// As frameIsClean; a frame without fluid must leave the screen as the host drew it.
+    bool frameHasFluid() {
+        const std::uint64_t stamp = ++drawn_;
+        drawStamp(*screen_, stamp, 1);
+        const std::vector<float> before = readColour(*screen_, nullptr).values;
+        Status status = host_->submit(*screen_, echoInput());
+        if (status) {
+            status = host_->composite(*screen_);
+        }
+        if (status) {
+            EXPECT_TRUE(inspect(*host_, stamp).clean()) << "frame " << stamp;
+        } else {
+            EXPECT_EQ(readColour(*screen_, nullptr).values, before) << "frame " << stamp;
+            failures_.push_back(status.error().message());
+        }
+        return status.ok();
+    }
+    /// 'f' for a frame with fluid, '-' for one without.
+    std::string run(int frames) {
+        std::string seen;
+        for (int i = 0; i < frames; ++i) {
+            seen += frameHasFluid() ? 'f' : '-';
+        }
+        return seen;
+    }
+
+    std::uint64_t drawn_ = 0;
+};
+
+TEST_F(RecoveryTest, ALostDeviceCostsItsFrameAndTheNextHasFluidAgain) {
+    for (const SluiceTimelineKind timeline : {SLUICE_TIMELINE_BRIDGED, SLUICE_TIMELINE_FINISH}) {
+        *control_ = ShimControl{};
+        drawn_ = 0;
+        ASSERT_NO_FATAL_FAILURE(begin(recovering(timeline)));
+        control_->lose_submit = 3;
+        EXPECT_EQ(run(2), "ff");
+        EXPECT_EQ(run(1), "-");
+        control_->lose_submit = 0;
+        EXPECT_EQ(run(4), "ffff");
+        EXPECT_EQ(host_->renderers(), 2U);
+        EXPECT_EQ(control_->destroys, 1U);
+        EXPECT_EQ(host_->frame(), 7U) << "numbers go on";
+        EXPECT_EQ(host_->stats(7).value().frame, 7U);
+        EXPECT_EQ(host_->stats(2).error().code, SLUICE_ERROR_DEVICE_LOST);
+        EXPECT_THAT(complaints_,
+                    ElementsAre(AllOf(HasSubstr("useless from frame 3 on"), HasSubstr("the shim has lost")),
+                                HasSubstr("here again after 1 frame without fluid")));
+        complaints_.clear();
+        host_.reset();
+    }
+}
+
+TEST_F(RecoveryTest, ARendererThatKeepsFailingIsGivenUpAfterItsTriesAndSaidOnceEach) {
+    FluidHostConfig wanted = recovering(SLUICE_TIMELINE_BRIDGED);
+    wanted.recovery.attempts = 2;
+    ASSERT_NO_FATAL_FAILURE(begin(wanted));
+    EXPECT_EQ(run(1), "f");
+    control_->lose_submit = 2;
+    control_->refuses = 1U << SLUICE_TIMELINE_BRIDGED;
+    const int descriptors = openDescriptors();
+    EXPECT_EQ(run(12), "------------");
+    EXPECT_EQ(control_->attempt_count, 3U);
+    EXPECT_EQ(control_->submits, 2U);
+    EXPECT_LE(openDescriptors(), descriptors);
+    EXPECT_THAT(complaints_,
+                ElementsAre(HasSubstr("created again in 1 frame"), HasSubstr("try 1 of 2 failed, the next one in 2"),
+                            AllOf(HasSubstr("try 2 of 2 failed, given up"), HasSubstr("the shim refuses"))));
+    EXPECT_THAT(failures_.back(), HasSubstr("there is no renderer: renderer create: the shim refuses this timeline"));
+    // A resize is a fresh start.
+    *control_ = ShimControl{};
+    EXPECT_TRUE(host_->resize(kEchoWidth, kEchoHeight));
+    EXPECT_EQ(run(2), "ff");
+    complaints_.clear();
+}
+
+TEST_F(RecoveryTest, TheNewRendererGetsTheScene) {
+    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
+    std::vector<float> positions(3 * 7, 0.25F);
+    auto particles = sized<SluiceParticles>();
+    particles.count = 7;
+    particles.radius = 0.5F;
+    particles.position = positions.data();
+    const std::vector<float> pixels(3 * 2 * 1, 0.5F);
+    auto environment = sized<SluiceEnvironment>();
+    environment.width = 2;
+    environment.height = 1;
+    environment.pixels = pixels.data();
+    ASSERT_TRUE(host_->setParticles(particles));
+    ASSERT_TRUE(host_->setEnvironment(&environment));
+    control_->lose_submit = 1;
+    EXPECT_EQ(run(1), "-");
+    control_->lose_submit = 0;
+    // Given while there is no renderer: this is what the next one gets.
+    particles.count = 5;
+    ASSERT_TRUE(host_->setParticles(particles));
+    positions.assign(positions.size(), 100.0F);
+    EXPECT_EQ(run(1), "f");
+    EXPECT_EQ(control_->particles, 5U);
+    EXPECT_EQ(control_->first_coordinate, 0.25F);
+    EXPECT_EQ(control_->environment_width, 2U);
+    complaints_.clear();
+}
+
+TEST_F(RecoveryTest, AFaultOfTheOrderCostsTwoFramesAndNotAllLater) {
+    FluidHostConfig wanted = recovering(SLUICE_TIMELINE_FINISH);
+    wanted.fault = FaultPlan{FaultKind::WrongValue, 3};
+    ASSERT_NO_FATAL_FAILURE(begin(wanted));
+    EXPECT_EQ(run(10), "fff--fffff");
+    EXPECT_EQ(host_->renderers(), 2U);
+    complaints_.clear();
+}
+
+TEST_F(RecoveryTest, DeadlinesThatPassInARowAreAFaultAndOneAloneIsNot) {
+    FluidHostConfig wanted = recovering(SLUICE_TIMELINE_FINISH);
+    ASSERT_NO_FATAL_FAILURE(begin(wanted));
+    control_->time_out_from = 2;
+    control_->time_out_to = 2;
+    EXPECT_EQ(run(3), "f-f");
+    EXPECT_EQ(host_->renderers(), 1U);
+    control_->time_out_from = 4;
+    control_->time_out_to = 100;
+    EXPECT_EQ(run(2), "--");
+    control_->time_out_from = control_->time_out_to = 0;
+    EXPECT_EQ(run(2), "ff");
+    EXPECT_EQ(host_->renderers(), 2U);
+    complaints_.clear();
+}
+
+TEST_F(RecoveryTest, AnArgumentThatIsRefusedNeverCostsTheRenderer) {
+    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
+    FrameInput input = echoInput();
+    input.camera.near_plane = -1.0F;
+    for (int i = 0; i < 5; ++i) {
+        EXPECT_EQ(host_->submit(*screen_, input).error().code, SLUICE_ERROR_INVALID_ARGUMENT);
+    }
+    EXPECT_EQ(host_->renderers(), 1U);
+    EXPECT_TRUE(host_->submit(*screen_, echoInput()));
+    EXPECT_TRUE(host_->composite(*screen_));
+}
+
+TEST_F(RecoveryTest, AResizeThatFindsNoMemoryIsMadeUpForByANewRenderer) {
+    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
+    EXPECT_EQ(run(2), "ff");
+    control_->fail_resizes = 1;
+    EXPECT_EQ(host_->resize(64, 48).error().code, SLUICE_ERROR_OUT_OF_MEMORY);
+    ASSERT_NO_FATAL_FAILURE(makeScreen(64, 48));
+    EXPECT_EQ(run(3), "fff");
+    EXPECT_EQ(host_->info().width, 64U);
+    complaints_.clear();
+}
+
+TEST_F(RecoveryTest, LeavesNoDescriptorBehindAndNothingForTheLedger) {
+    ledger_ = std::make_unique<ledger::LiveLedger>();
+    FluidHostConfig wanted = recovering(SLUICE_TIMELINE_BRIDGED);
+    wanted.ledger = ledger_.get();
+    wanted.recovery.settled_frames = 1;
+    ASSERT_NO_FATAL_FAILURE(begin(wanted));
+    int settled = 0;
+    for (int round = 0; round < 6; ++round) {
+        EXPECT_EQ(run(2), "ff");
+        control_->lose_submit = 3;  // as the renderer counts
+        EXPECT_EQ(run(1), "-");
+        control_->lose_submit = 0;
+        if (round == 1) {
+            settled = openDescriptors();
+        }
+    }
+    EXPECT_EQ(openDescriptors(), settled);
+    finish();
+    EXPECT_THAT(found(), IsEmpty());
+    complaints_.clear();
+}
+
+}  // namespace
+}  // namespace sluice::host::test
