@@ -76,7 +76,7 @@ TEST_F(LedgerOption, WithoutItTheSummaryHasNone) {
 
 TEST_F(LedgerOption, ASkippedWaitIsInTheJsonAndTheExitCodeStays) {
     const Outcome outcome =
-        run("render s.json -o a_####.png --frames 1..4 --image-sets 1 --ledger --fault skip-wait@2 --json");
+        run("render s.json -o a_####.png --frames 1..4 --image-sets 1 --ledger-log a.log --fault skip-wait@2 --json");
     EXPECT_EQ(outcome.code, 0) << outcome.err;
     const auto ledger = nlohmann::json::parse(outcome.out).at("ledger");
     std::vector<std::string> ids;
@@ -86,6 +86,12 @@ TEST_F(LedgerOption, ASkippedWaitIsInTheJsonAndTheExitCodeStays) {
     }
     EXPECT_THAT(ids, Contains("race-write-after-write"));
     EXPECT_GT(ledger.at("events"), 50);
+    const Outcome diagnosed = run("diagnose a.log");
+    EXPECT_EQ(diagnosed.code, 1);
+    EXPECT_THAT(diagnosed.out, HasSubstr("GL stream acquires HOST_COLOUR of set 0 in frame 2, but nothing orders that "
+                                         "after the release by renderer's queue in frame 2."));
+    EXPECT_THAT(diagnosed.out, HasSubstr("wait for renderer-to-host >= 2 before the acquire of HOST_COLOUR of set 0 by "
+                                         "GL stream"));
 }
 
 TEST_F(LedgerOption, ADroppedSignalCostsOneFrameItsFluidAndTheLogTellsWhoWaitsForWhom) {

@@ -11,6 +11,7 @@
 
 #include "ledger_rig.hpp"
 #include "sluice/format.hpp"
+#include "sluice/ledger/hand_off_feed.hpp"
 
 namespace sluice::host::test {
 namespace {
@@ -66,6 +67,19 @@ TEST_P(OrderingFault, IsFound) {
     const std::vector<std::string>& expected = timeline == SLUICE_TIMELINE_FINISH ? fault.finish : fault.bridged;
     for (const std::string& id : expected) {
         EXPECT_THAT(found(), ::testing::Contains(::testing::Key(id)));
+    }
+    // Of a wait left out, the one who left it out is named and what it should have waited for, whenever the queue's
+    // events came to the ledger.
+    if (fault.kind == FaultKind::SkipWait && !expected.empty()) {
+        const bool to_host = fault.direction == SLUICE_RENDERER_TO_HOST;
+        for (const ledger::Finding& finding : ledger_->findings()) {
+            if (finding.kind != ledger::FindingKind::WriteAfterWrite) {
+                continue;
+            }
+            EXPECT_EQ(finding.second.actor, to_host ? ledger::kGlStream : ledger::kRendererQueue) << finding.sentence;
+            EXPECT_THAT(finding.edge, ::testing::HasSubstr(to_host ? "-> host thread:wait(renderer-to-host, 5)"
+                                                                   : "-> renderer's queue:wait(host-to-renderer, 9)"));
+        }
     }
     if (expected.empty()) {
         EXPECT_THAT(found(), ::testing::IsEmpty());

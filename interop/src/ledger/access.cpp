@@ -15,16 +15,6 @@ ReadMark& markOf(Resource& resource, const Actor& by) {
     return found == resource.reads.end() ? resource.reads.emplace_back() : *found;
 }
 
-std::string version(const Event& event) {
-    return event.value == 0 ? std::string("a version") : fmt::format("version {}", event.value);
-}
-
-std::string accessText(const Event& event) {
-    const bool content = event.kind == EventKind::Read || event.kind == EventKind::Write;
-    return content && event.value != 0 ? fmt::format("{} of version {}", toString(event.kind), event.value)
-                                       : std::string(toString(event.kind));
-}
-
 }  // namespace
 
 void Ledger::State::access(Actor& by, const Item& item) {
@@ -39,6 +29,9 @@ void Ledger::State::access(Actor& by, const Item& item) {
                                         name(resource.destroyed->actor), by.name, resource.name);
         }
         return;
+    }
+    if (resource.behind && by.slot == resource.behind->actor && by.after(resource.behind->until)) {
+        resource.behind.reset();
     }
     const bool writes = event.kind != EventKind::Read;
     bool broken = againstWrite(by, resource, item.slot, event);
@@ -68,12 +61,18 @@ void Ledger::State::access(Actor& by, const Item& item) {
         ReadMark& mark = markOf(resource, by);
         settleWitness(resource, mark);
         mark = ReadMark{by.now(), event, true, broken || stale, broken, std::nullopt};
+    } else if (resource.behind && by.slot == resource.behind->actor) {
+        resource.behind->last = by.now();
+        resource.behind->last_event = event;
     } else {
         resource.write_at = by.now();
         resource.write_event = event;
         if (event.kind == EventKind::Write) {
             resource.content = event;
         }
+    }
+    if (event.kind == EventKind::Release) {
+        releasedLate(by, resource, event);
     }
 }
 
@@ -93,7 +92,7 @@ bool Ledger::State::againstWrite(Actor& by, Resource& resource, Slot slot, const
         return false;
     }
     if (auto* found = report(FindingKind::NotListed, resource.id, before, event)) {
-        found->edge = missingEdge(at, before, by, event, resource.name);
+        found->edge = missingEdge(at, before, by, event, resource.name).edge;
         found->sentence = fmt::format(
             "{} {} {} in frame {}, ordered after the {} by {}, but the semaphore's lists leave {} out.", by.name,
             verb(event.kind), resource.name, event.frame, accessText(before), name(before.actor), resource.name);
@@ -122,37 +121,6 @@ bool Ledger::State::againstReads(Actor& by, Resource& resource, const Event& eve
         settleWitness(resource, mark);
     }
     return broken;
-}
-
-void Ledger::State::race(FindingKind kind, Actor& by, Resource& resource, Epoch at, const Event& first,
-                         const Event& second) {
-    const auto known_order = [&](const Forgiven& one) {
-        return one.before.actor == at.actor && at.tick <= one.before.tick && by.after(one.after);
-    };
-    if (std::any_of(resource.forgiven.begin(), resource.forgiven.end(), known_order)) {
-        return;
-    }
-    if (auto* found = report(kind, resource.id, first, second)) {
-        const std::string early = name(first.actor);
-        found->edge = missingEdge(at, first, by, second, resource.name);
-        found->sentence =
-            fmt::format("{} {} {} in frame {}{}, but nothing orders that after the {} by {} in frame {}.", by.name,
-                        verb(second.kind), resource.name, second.frame,
-                        second.kind == EventKind::Read || second.kind == EventKind::Write ? " (" + version(second) + ")"
-                                                                                          : std::string(),
-                        accessText(first), early, first.frame);
-        found->remedy =
-            fmt::format("Let {} signal after its {} of {}, and let {} wait for that before its {} (missing: {}).",
-                        early, toString(first.kind), resource.name, by.name, toString(second.kind), found->edge);
-    }
-    // From here on the two are taken to be ordered, and what hangs on the state that they left to chance is not judged.
-    const auto same = std::find_if(resource.forgiven.begin(), resource.forgiven.end(), [&](const Forgiven& one) {
-        return one.before.actor == at.actor && one.after.actor == by.slot;
-    });
-    (same == resource.forgiven.end() ? resource.forgiven.emplace_back() : *same) = Forgiven{at, by.now()};
-    resource.owner = kNoActor;
-    resource.release.reset();
-    resource.layout = 0;
 }
 
 void Ledger::State::witness(Actor& by, const Item& item) {

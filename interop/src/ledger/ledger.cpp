@@ -97,6 +97,9 @@ void Ledger::State::submit(Actor& from, Item item) {
     if (&stream == &from) {
         return;
     }
+    if (std::find(stream.fed_by.begin(), stream.fed_by.end(), from.slot) == stream.fed_by.end()) {
+        stream.fed_by.push_back(from.slot);
+    }
     if (from.queue.empty() && stream.queue.empty()) {
         gift(from, from.newest_candidate, stream);
         from.know.raise(from.now());

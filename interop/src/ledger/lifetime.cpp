@@ -162,6 +162,8 @@ void Ledger::State::destroy(Actor& by, const Item& item) {
         tell(FindingKind::UseAfterDestroy, *resource.destroyed, "it is gone since");
     } else if (resource.write_at.tick != 0 && !by.after(resource.write_at)) {
         tell(FindingKind::UseAfterDestroy, resource.write_event, unordered);
+    } else if (resource.behind && !by.after(resource.behind->last)) {
+        tell(FindingKind::UseAfterDestroy, resource.behind->last_event, unordered);
     } else {
         const auto busy = std::find_if(resource.reads.begin(), resource.reads.end(),
                                        [&](const ReadMark& mark) { return mark.active && !by.after(mark.at); });

@@ -109,6 +109,34 @@ struct Release {
     std::uint32_t old_layout, new_layout;
 };
 
+/// A race that has been told while its edge may still get a better name: the signal, or the release, comes later in
+/// the log than the access that should have waited for it.
+struct OpenRace {
+    std::size_t finding = 0;
+    ObjectId resource = kNoObject;
+    std::string name;  ///< of the resource
+    Epoch at;          ///< of `early`
+    Event early, late;
+    Slot waiting = 0;              ///< the actor of `late`
+    bool release_to_come = false;  ///< `early` is what leads to the release that `late` should have come after
+};
+
+/// A missing edge in words.
+struct EdgeText {
+    std::string edge;
+    bool certain = false;  ///< the late side waits for that very sync elsewhere; only then the rest counts
+    std::string waiter, signaller, awaited;
+};
+
+/// After a race that the log shows the wrong way round: until `actor` comes after `until`, what it does to the
+/// resource is older than what the ledger has seen of it.
+struct Behind {
+    Slot actor = kNoSlot;
+    Epoch until;
+    Epoch last = {};  ///< and its last use of that kind
+    Event last_event = {};
+};
+
 struct Resource {
     ObjectId id = kNoObject;
     std::string name;
@@ -116,6 +144,9 @@ struct Resource {
     Event layout_event;
     ActorId owner = kNoActor;  ///< kNoActor: free
     std::optional<Release> release;
+    std::optional<Release>
+        retaken;  ///< its owner took back what nobody else has acquired: that may have been too early
+    std::optional<Behind> behind;
     Epoch write_at;  ///< last write, transition or transfer
     Event write_event;
     std::optional<Event> content;  ///< last Write
@@ -171,7 +202,8 @@ struct Actor {
     Knowledge know;  ///< of others; its own past goes without saying
     std::uint32_t frame = 0;
     std::vector<Named> names;
-    std::deque<Item> queue;  ///< not empty: held at its front
+    std::vector<Slot> fed_by;  ///< who has submitted to it
+    std::deque<Item> queue;    ///< not empty: held at its front
     std::optional<Item> open_wait;
     std::unique_ptr<std::array<Candidate, 8>> candidates;
     std::uint64_t newest_candidate = 0;

@@ -59,6 +59,7 @@ void Ledger::State::release(Actor& by, Resource& resource, const Event& event) {
     layoutChange(resource, event);
     resource.owner = kNoActor;
     resource.release = Release{event, by.now(), oldLayout(event), newLayout(event)};
+    resource.retaken.reset();
 }
 
 void Ledger::State::acquire(Actor& by, Resource& resource, const Event& event) {
@@ -71,6 +72,8 @@ void Ledger::State::acquire(Actor& by, Resource& resource, const Event& event) {
     } else {
         layoutChange(resource, event);
     }
+    const bool own = resource.release && resource.release->event.actor == by.id;
+    resource.retaken = own ? std::move(resource.release) : std::nullopt;
     resource.owner = by.id;
     resource.release.reset();
 }

@@ -59,10 +59,17 @@ void Ledger::State::prune(Sync& sync) {
         for (const ReadMark& read : resource.reads) {
             mark(marks, read.at);
         }
+        if (resource.behind) {
+            mark(marks, resource.behind->until);
+            mark(marks, resource.behind->last);
+        }
         for (const Forgiven& one : resource.forgiven) {
             mark(marks, one.before);
             mark(marks, one.after);
         }
+    }
+    for (const OpenRace& one : open_races) {
+        mark(marks, one.at);
     }
     for (const Sync& one : syncs) {
         mark(marks, one.consumed_at);

@@ -23,6 +23,12 @@ std::string verb(EventKind kind) {
     }
 }
 
+std::string accessText(const Event& event) {
+    const bool content = event.kind == EventKind::Read || event.kind == EventKind::Write;
+    return content && event.value != 0 ? fmt::format("{} of version {}", toString(event.kind), event.value)
+                                       : std::string(toString(event.kind));
+}
+
 Finding* Ledger::State::report(FindingKind kind, ObjectId object, const Event& first, const Event& second,
                                std::uint64_t cost) {
     const Key key{kind, object, first.actor, first.kind, second.actor, second.kind};
@@ -55,36 +61,6 @@ std::string Ledger::State::name(ActorId id) const {
 std::string Ledger::State::syncText(const Sync& sync, std::uint64_t value) const {
     return sync.kind == SyncKind::Timeline ? fmt::format("{} >= {}", sync.name, value)
                                            : fmt::format("the {} {}", toString(sync.kind), sync.name);
-}
-
-std::string Ledger::State::missingEdge(const Epoch& at, const Event& first, const Actor& by, const Event& second,
-                                       const std::string& what) const {
-    // Best named by a signal that follows the first event and that the second actor could have waited for; one on a
-    // sync that it does wait for elsewhere is the likeliest.
-    const Sync* best = nullptr;
-    const Entry* signal = nullptr;
-    for (const Sync& sync : syncs) {
-        for (const Entry& entry : sync.entries) {
-            if (entry.by.actor != at.actor || entry.by.tick < at.tick) {
-                continue;
-            }
-            bool waits = false;
-            for (const SyncUse& use : sync.uses) {
-                waits |= use.at.actor == by.slot && use.waited;
-            }
-            if (best == nullptr || waits) {
-                best = &sync;
-                signal = &entry;
-            }
-            break;  // entries ascend: the first that follows is the one
-        }
-    }
-    if (best != nullptr) {
-        return fmt::format("{0}:signal({2}, {3}) -> {1}:wait({2}, {3})", name(first.actor), by.name, best->name,
-                           signal->value);
-    }
-    return fmt::format("{}:signal(after {} of {}) -> {}:wait(before {} of {})", name(first.actor), toString(first.kind),
-                       what, by.name, toString(second.kind), what);
 }
 
 }  // namespace sluice::ledger

@@ -29,6 +29,7 @@ struct Ledger::State {
     };
     std::map<ObjectId, Fd> fds;
 
+    std::vector<OpenRace> open_races;  ///< told, but not yet what should have been waited for; few
     std::vector<Finding> findings;
     std::uint64_t dropped = 0;
     using Key = std::tuple<FindingKind, ObjectId, ActorId, EventKind, ActorId, EventKind>;
@@ -61,9 +62,21 @@ struct Ledger::State {
     void access(Actor& by, const Item& item);
     bool againstWrite(Actor& by, Resource& resource, Slot slot, const Event& event);
     bool againstReads(Actor& by, Resource& resource, const Event& event);
-    void race(FindingKind kind, Actor& by, Resource& resource, Epoch at, const Event& first, const Event& second);
     void witness(Actor& by, const Item& item);
     void settleWitness(Resource& resource, ReadMark& mark);
+
+    // race.cpp
+    void race(FindingKind kind, Actor& by, Resource& resource, Epoch at, const Event& first, const Event& second);
+    void tellRace(const OpenRace& one, const EdgeText& missing);
+    /// The release that a race's early side was still to make.
+    void releasedLate(const Actor& by, const Resource& resource, const Event& event);
+    /// A signal that came after a race was told may be the one that should have been waited for.
+    void nameEdges(const Sync& sync, const Entry& entry);
+    /// What `late` should have waited for to come after `at`, best guess first.
+    [[nodiscard]] EdgeText missingEdge(Epoch at, const Event& first, const Actor& late, const Event& second,
+                                       const std::string& what) const;
+    /// Who would have to wait for `sync` so that `late` comes after it: itself, a thread that feeds it, or nullptr.
+    [[nodiscard]] const Actor* waiterFor(const Sync& sync, const Actor& late) const;
 
     // ownership.cpp
     void checkOwner(Actor& by, Resource& resource, const Event& event);
@@ -110,11 +123,11 @@ struct Ledger::State {
     Finding* report(FindingKind kind, ObjectId object, const Event& first, const Event& second, std::uint64_t cost = 0);
     [[nodiscard]] std::string name(ActorId id) const;
     [[nodiscard]] std::string syncText(const Sync& sync, std::uint64_t value) const;
-    [[nodiscard]] std::string missingEdge(const Epoch& at, const Event& first, const Actor& by, const Event& second,
-                                          const std::string& what) const;
 };
 
-/// "reads colour", "waits for host-to-renderer >= 7"
+/// "reads", "acquires"
 [[nodiscard]] std::string verb(EventKind kind);
+/// "write of version 3", "release"
+[[nodiscard]] std::string accessText(const Event& event);
 
 }  // namespace sluice::ledger

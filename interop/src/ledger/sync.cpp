@@ -135,7 +135,7 @@ void Ledger::State::signal(Actor& by, const Item& item) {
         return;
     } else if (sync.consumed && !by.after(sync.consumed_at)) {
         if (auto* found = report(FindingKind::BinaryReusedPending, sync.id, *sync.consumed, event)) {
-            found->edge = missingEdge(sync.consumed_at, *sync.consumed, by, event, sync.name);
+            found->edge = missingEdge(sync.consumed_at, *sync.consumed, by, event, sync.name).edge;
             found->sentence = fmt::format(
                 "{} signals {} anew in frame {}, and nothing says that the wait of {} in "
                 "frame {} has run.",
@@ -152,6 +152,7 @@ void Ledger::State::signal(Actor& by, const Item& item) {
     Entry entry;
     fillEntry(by, sync, entry, event, names);
     sync.entries.push_back(std::move(entry));
+    nameEdges(sync, sync.entries.back());
     runnable.insert(runnable.end(), sync.waiters.begin(), sync.waiters.end());
     sync.waiters.clear();
 }
