@@ -173,6 +173,7 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
     FrameResult result;
     const bool layers = !options.layers.empty();
     const SluiceCamera camera = scene::cameraAt(inputs.scene, frame, inputs.size);
+    const std::uint64_t draw_began = monotonicNanoseconds();
     result.draw_ms = timed([&] {
         session.screen.bind();
         session.engine.draw(camera, inputs.scene.sky);
@@ -187,6 +188,7 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
         input.sky = inputs.scene.sky;
         input.fluid = inputs.scene.fluid;
         input.outputs = layerOutputs(options);
+        input.draw_began_ns = draw_began;
         Status status;
         result.submit_ms = timed([&] { status = session.fluid->submit(session.screen, input); });
         if (status) {

@@ -30,6 +30,10 @@ Recording recording(const std::vector<Event>& events, ledger::SyncKind kind = le
     sink.actor(kHost, ledger::ActorKind::HostThread, "host");
     sink.sync(0, kind, "ready", 0, 0);
     sink.sync(1, kind, "done", 0, 0);
+    for (ledger::ObjectId more = 2; more < 5; ++more) {
+        sink.sync(more, kind, "sync " + std::to_string(more), 0, 0);
+    }
+    sink.actor(3, ledger::ActorKind::BridgeThread, "bridge");
     sink.resource(0, "colour", 0, ledger::kNoActor);
     for (const Event& event : events) {
         sink.event(event);
@@ -115,6 +119,23 @@ TEST(Schedule, ACircleOfWaitsEnds) {
     EXPECT_EQ(steps[0].end_ns, 10U) << "put where it was logged";
     EXPECT_EQ(steps[0].cause, kNone);
     EXPECT_EQ(ledger::makeReport(made, steps).frames.size(), 0U);
+}
+
+TEST(Schedule, AThreadThatStoodStillForAStreamsSignalKnowsWhenItCame) {
+    const std::uint64_t held = ledger::kHeldNs;
+    const auto steps = ledger::schedule(recording({
+        event(EventKind::Signal, kGl, 0, 1, 100),             // recorded; 1: the thread waited for it
+        event(EventKind::Write, kGl, 0, 1, 110),              // after it
+        event(EventKind::Wait, kHost, 0, 1, 120, held),       //
+        event(EventKind::Signal, kQueue, 1, 1, 200),          // there already when it was asked for
+        event(EventKind::Wait, kHost, 1, 1, held * 2, 2000),  //
+    }));
+    EXPECT_EQ(steps[0].begin_ns, 100U);
+    EXPECT_EQ(steps[0].end_ns, 120 + held);
+    EXPECT_TRUE(steps[0].inferred);
+    EXPECT_EQ(steps[1].begin_ns, 120 + held);
+    EXPECT_EQ(steps[2].cause, 0U);
+    EXPECT_EQ(steps[3].end_ns, 200U) << "a call that returns at once says nothing of when the signal came";
 }
 
 TEST(Schedule, TimesAtTheEndOfTheClockDoNotWrap) {
@@ -216,6 +237,50 @@ TEST(Report, WorkThatWaitedForItsSubmissionLeadsToTheThread) {
     EXPECT_EQ(path[1].actor, kQueue);
     EXPECT_EQ(path[1].begin_ns, 1100U);
     EXPECT_EQ(path[1].end_ns, 1150U);
+}
+
+/// What HandOffFeed tells of a bridged frame: host draws, fence, bridge, queue, host, composite, fence, bridge.
+TEST(Report, TheBridgedFramesPathGoesThroughEveryHand) {
+    constexpr ledger::ActorId kBridge = 3;
+    constexpr ledger::ObjectId kFences = 2, kPromises = 3, kSubmissions = 4;
+    constexpr std::uint64_t kMs = 1'000'000;
+    const Recording made = recording({
+        in(1, event(EventKind::Frame, kHost, 0, 1, 0)),
+        in(1, event(EventKind::Submit, kHost, kGl, 1, 1 * kMs)),                    // the engine has drawn
+        in(1, event(EventKind::Write, kGl, 0, 1, 1 * kMs)),                         // the capture
+        in(1, event(EventKind::Signal, kGl, kFences, 1, 2 * kMs)),                  //
+        in(1, event(EventKind::Signal, kHost, kPromises, 1, 2 * kMs)),              //
+        in(1, event(EventKind::Signal, kHost, kSubmissions, 1, 2 * kMs + 1)),       //
+        in(1, event(EventKind::Wait, kBridge, kPromises, 1, 0, 2 * kMs)),           // it slept
+        in(1, event(EventKind::Wait, kBridge, kFences, 1, 2 * kMs + 10, 3 * kMs)),  // GL was at work until 5
+        in(1, event(EventKind::Signal, kBridge, 0, 1, 5 * kMs + 20)),               //
+        in(1, event(EventKind::Frame, kQueue, 0, 1, 0)),                            //
+        in(1, event(EventKind::Wait, kQueue, kSubmissions, 1, 0)),                  //
+        in(1, event(EventKind::Wait, kQueue, 0, 1, 2 * kMs + 1, 3 * kMs + 100)),    //
+        in(1, event(EventKind::Signal, kQueue, 1, 1, 9 * kMs)),                     //
+        in(1, event(EventKind::Wait, kHost, 1, 1, 3 * kMs, 6 * kMs + 50)),          //
+        in(1, event(EventKind::Submit, kHost, kGl, 2, 9 * kMs + 60)),               //
+        in(1, event(EventKind::Read, kGl, 0, 1, 9 * kMs + 61)),                     // the composite
+        in(1, event(EventKind::Signal, kGl, kFences, 2, 9 * kMs + 70)),             //
+        in(1, event(EventKind::Signal, kHost, kPromises, 2, 9 * kMs + 71)),
+        in(1, event(EventKind::Wait, kBridge, kPromises, 2, 5 * kMs + 20, 4 * kMs + 60)),  // it slept again
+        in(1, event(EventKind::Wait, kBridge, kFences, 2, 9 * kMs + 80, kMs)),             // until 10
+        in(1, event(EventKind::Signal, kBridge, 0, 2, 10 * kMs + 90)),                     //
+    });
+    const ledger::FrameReport frame = ledger::makeReport(made, ledger::schedule(made)).frames.at(0);
+    std::vector<std::uint32_t> actors;
+    for (const ledger::PathPart& part : frame.path) {
+        actors.push_back(part.actor);
+    }
+    EXPECT_THAT(actors, ElementsAre(kHost, kGl, kBridge, kQueue, kHost, kGl, kBridge));
+    EXPECT_EQ(frame.path.front().begin_ns, 0U);
+    EXPECT_EQ(frame.path[1].end_ns, 5 * kMs + 10);
+    // The path's parts cover the frame.
+    for (std::size_t i = 1; i < frame.path.size(); ++i) {
+        EXPECT_EQ(frame.path[i].begin_ns, frame.path[i - 1].end_ns);
+    }
+    // The host beside OpenGL from 1 to 3 ms; a bridge that sleeps or waits runs beside nothing.
+    EXPECT_EQ(frame.overlap_achieved_ns, 2 * kMs + 20);
 }
 
 TEST(Report, APathStopsWhereAnotherFrameHeldItUp) {

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -13,6 +14,7 @@
 
 #include "sluice/format.hpp"
 #include "sluice/ledger/hand_off_feed.hpp"
+#include "sluice/ledger/recording.hpp"
 #include "sluice/roles.hpp"
 #include "sluice/timeline.hpp"
 #include "sluice/trace.hpp"
@@ -95,7 +97,7 @@ class Rig {
         switch (kind_) {
             case SLUICE_TIMELINE_BRIDGED:
                 feed_->fencePromised(value);
-                feed_->bridgeWaited(value, monotonicNanoseconds(), true);
+                feed_->bridgeWaited(value, 0, monotonicNanoseconds(), true);
                 return feed_->bridgeSignals(value);
             case SLUICE_TIMELINE_FINISH:
                 feed_->glFinished(monotonicNanoseconds());
@@ -287,6 +289,53 @@ TEST(HandOffFeed, TheChainNamesASignalThatWasNeverRecordedAndAFrameThatWasNeverS
     ASSERT_TRUE(rig.feed().submits(4));
     EXPECT_THAT(rig.feed().waitForChain(4), HasSubstr("nobody has promised host-to-renderer 7"));
     EXPECT_THAT(rig.feed().waitForChain(5), HasSubstr("frame 5 has not been submitted; the last one is 4"));
+}
+
+/// The times that diagnose works with: no sleep counts as work, and none reaches back before its frame.
+TEST(HandOffFeed, BridgeAndQueueStandStillUntilTheyAreFed) {
+    const std::string path = std::filesystem::path(::testing::TempDir()) / "fed.sluicelog";
+    auto log = LogWriter::create(path);
+    ASSERT_TRUE(log) << log.error().message();
+    LiveLedger ledger(LedgerOptions{}, std::move(log).value());
+    const std::uint64_t before = monotonicNanoseconds();
+    {
+        HandOffFeed feed(ledger, SLUICE_TIMELINE_BRIDGED, 2);
+        feed.imagesMade(kAlwaysSharedRoles);
+        feed.captureBegins(1, before);
+        feed.captureEnds(1);
+        feed.fencePromised(1);
+        feed.bridgeWaited(1, before - 1'000'000, monotonicNanoseconds(), true);
+        feed.bridgeSignals(1);
+        ASSERT_TRUE(feed.submits(1));
+        SluiceTraceEvent event{};
+        event.struct_size = sizeof(event);
+        event.track = SLUICE_TRACK_RENDERER_QUEUE;
+        event.kind = SLUICE_TRACE_WAIT;
+        event.frame = event.value = 1;
+        event.begin_ns = monotonicNanoseconds();
+        feed.trace(event);
+    }
+    ASSERT_TRUE(ledger.finish(End::Closed));
+    const auto read = loadRecording(path);
+    std::filesystem::remove(path);
+    ASSERT_TRUE(read) << read.error().message();
+    const RecordedEvent* slept = nullptr;
+    const RecordedEvent* stood = nullptr;
+    for (const RecordedEvent& one : read.value().events) {
+        EXPECT_TRUE(one.event.time_ns >= before) << toString(one.event.kind);
+        if (one.event.kind == EventKind::Wait) {
+            (one.event.actor == kBridgeThread && one.event.object == kPromises ? slept : stood) = &one;
+        }
+        if (one.event.kind == EventKind::Frame && one.event.actor == kHostThread) {
+            EXPECT_EQ(one.event.time_ns, before) << "the frame begins with the engine's draw";
+        }
+    }
+    ASSERT_NE(slept, nullptr);
+    EXPECT_EQ(slept->event.time_ns, before) << "cut to its frame";
+    EXPECT_GT(slept->event.duration_ns, 0U);
+    ASSERT_NE(stood, nullptr);
+    EXPECT_EQ(stood->event.actor, kRendererQueue);
+    EXPECT_EQ(stood->event.object, kHostToRenderer);
 }
 
 TEST(HandOffFeed, OnlyAQueueThatWasWaitedForIsThroughWithTheImages) {

@@ -243,7 +243,7 @@ Status RendererLife::handOver(const Screen& screen, const FrameInput& input) {
         return status;
     }
     if (feed() != nullptr) {
-        feed()->captureBegins(frame);
+        feed()->captureBegins(frame, input.draw_began_ns);
     }
     capture(screen, input.camera, frame);
     if (feed() != nullptr) {

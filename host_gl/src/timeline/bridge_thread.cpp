@@ -96,6 +96,7 @@ void BridgeThread::run() {
         return;
     }
     for (;;) {
+        const std::uint64_t idle = traceClock(deps_.trace, deps_.feed);
         std::unique_lock lock(mutex_);
         wake_.wait(lock, [this] { return stop_ || !promises_.empty(); });
         if (promises_.empty()) {
@@ -104,19 +105,19 @@ void BridgeThread::run() {
         const Promise promise = promises_.front();
         promises_.pop_front();
         lock.unlock();
-        keep(promise);
+        keep(promise, idle);
     }
     context_.release();
 }
 
-void BridgeThread::keep(const Promise& promise) {
+void BridgeThread::keep(const Promise& promise, std::uint64_t idle_ns) {
     const std::uint64_t begin = traceClock(deps_.trace, deps_.feed);
     const Status arrived = waitForFence(promise);
     traceStep(deps_.trace, SLUICE_TRACE_MARK, SLUICE_TRACK_BRIDGE, SLUICE_HOST_TO_RENDERER, promise.value, begin,
               "wait for GL fence");
     glDeleteSync(promise.fence);
     if (deps_.feed != nullptr) {
-        deps_.feed->bridgeWaited(promise.value, begin, arrived.ok());
+        deps_.feed->bridgeWaited(promise.value, idle_ns, begin, arrived.ok());
     }
     if (!arrived) {
         fail(arrived.error());

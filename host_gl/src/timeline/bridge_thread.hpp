@@ -51,7 +51,8 @@ class BridgeThread {
 
     BridgeThread(BridgeContext context, TimelineDeps deps);
     void run();
-    void keep(const Promise& promise);
+    /// `idle_ns`: since when the thread had nothing to do.
+    void keep(const Promise& promise, std::uint64_t idle_ns);
     [[nodiscard]] Status waitForFence(const Promise& promise) const;
     void fail(const Error& error);
 

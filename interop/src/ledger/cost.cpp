@@ -39,7 +39,10 @@ void Ledger::State::uselessWait(const Actor& by, const Sync& sync, const Entry& 
     const bool again = use.waited && sync.kind != SyncKind::Binary &&
                        (sync.kind == SyncKind::Fence || event.value <= use.waited_value);
     const bool own = entry.by.actor == by.slot;
-    const bool dear = by.isThread() && event.duration_ns >= kImpliedCostNs;
+    // Where an earlier wait met a later signal in the place of a forgotten one, that is what it knows more, not the
+    // program.
+    const bool forgotten = sync.kind == SyncKind::Timeline && event.value <= use.met_value;
+    const bool dear = by.isThread() && event.duration_ns >= kImpliedCostNs && !forgotten;
     if (event.duration_ns < options.useless_wait_ns || !(again || own || dear)) {
         return;
     }

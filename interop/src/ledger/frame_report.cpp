@@ -41,7 +41,7 @@ std::uint64_t lengthOfUnion(std::vector<Interval> intervals) {
 void addWait(const Recording& recording, const std::vector<Step>& steps, std::uint32_t i, Samples& samples) {
     const RecordedEvent& recorded = recording.events[i];
     const Step& step = steps[i];
-    if (step.signal != kNone) {
+    if (step.signal != kNone && !steps[step.signal].inferred) {
         const Step& signal = steps[step.signal];
         const std::uint64_t latency = step.end_ns > signal.end_ns ? step.end_ns - signal.end_ns : 0;
         samples.hand_off.push_back(latency);

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "sluice/ledger/hand_off_feed.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "hand_off_roles.hpp"
 #include "sluice/format.hpp"
 #include "sluice/roles.hpp"
 #include "sluice/timeline.hpp"
@@ -13,11 +12,6 @@
 namespace sluice::ledger {
 
 namespace {
-
-constexpr std::uint32_t kGBufferRoles =
-    SLUICE_ROLE_BIT(SLUICE_IMAGE_HOST_COLOUR) | SLUICE_ROLE_BIT(SLUICE_IMAGE_HOST_DEPTH);
-constexpr std::uint64_t kGeneral = 1;  // VK_IMAGE_LAYOUT_GENERAL
-constexpr std::uint64_t kGeneralToGeneral = kGeneral << 32U | kGeneral;
 
 // Binary semaphores take numbers in turn. A frame has one of a kind and four frames are in flight at most.
 constexpr ObjectId kFirstBinary = 16;
@@ -43,6 +37,7 @@ HandOffFeed::HandOffFeed(LiveLedger& ledger, SluiceTimelineKind kind, std::uint3
     ledger_.declareSync(kGlFinishes, SyncKind::Timeline, "calls of glFinish", 0, 0);
     if (kind_ == SLUICE_TIMELINE_BRIDGED) {
         ledger_.declareSync(kGlFences, SyncKind::Timeline, "GL fences", 0, 0);
+        ledger_.declareSync(kPromises, SyncKind::Timeline, "fences for the bridge", 0, 0);
         ledger_.declareActor(kBridgeThread, ActorKind::BridgeThread, "bridge thread");
     }
     if (kind_ != SLUICE_TIMELINE_BINARY) {
@@ -160,11 +155,14 @@ void HandOffFeed::take(std::uint64_t frame) {
     }
 }
 
-void HandOffFeed::captureBegins(std::uint64_t frame) {
+void HandOffFeed::captureBegins(std::uint64_t frame, std::uint64_t draw_began_ns) {
     const std::lock_guard lock(mutex_);
-    put(EventKind::Frame, kHostThread, kNoObject, frame, frame);
-    put(EventKind::Frame, kGlStream, kNoObject, frame, frame);
-    hostRecords(frame);
+    const std::uint64_t now = monotonicNanoseconds();
+    const std::uint64_t begin = draw_began_ns != 0 ? std::min(draw_began_ns, now) : now;
+    times(frame) = {begin, 0};
+    put(EventKind::Frame, kHostThread, kNoObject, frame, frame, begin);
+    put(EventKind::Frame, kGlStream, kNoObject, frame, frame, begin);
+    hostRecords(frame);  // the engine's draw and the capture
     take(frame);
     putImages(EventKind::Write, kGlStream, kGBufferRoles, frame, frame);
 }
@@ -181,6 +179,7 @@ bool HandOffFeed::submits(std::uint64_t frame) {
     ++unheard_;
     ++taken_;
     declareBinary(SLUICE_RENDERER_TO_HOST, frame);
+    times(frame).submitted_ns = monotonicNanoseconds();
     put(EventKind::Signal, kHostThread, kSubmissions, frame, frame);
     const bool patient = unheard_ <= kPatienceFrames || blind_;
     if (!patient) {
@@ -225,13 +224,19 @@ void HandOffFeed::glWaits(std::uint64_t value, bool names_images) {
 void HandOffFeed::fencePromised(std::uint64_t value) {
     const std::lock_guard lock(mutex_);
     put(EventKind::Signal, kGlStream, kGlFences, frameOf(value), ++fences_);
+    put(EventKind::Signal, kHostThread, kPromises, frameOf(value), fences_);
     promised_ = std::max(promised_, value);
 }
 
-void HandOffFeed::bridgeWaited(std::uint64_t value, std::uint64_t begin_ns, bool arrived) {
+void HandOffFeed::bridgeWaited(std::uint64_t value, std::uint64_t idle_ns, std::uint64_t begin_ns, bool arrived) {
     const std::lock_guard lock(mutex_);
-    put(EventKind::Wait, kBridgeThread, kGlFences, frameOf(value), ++bridged_, begin_ns,
-        monotonicNanoseconds() - begin_ns, arrived ? std::uint16_t{0} : std::uint16_t{kTimedOut});
+    const std::uint64_t frame = frameOf(value);
+    // What it slept before the frame began is no part of the frame.
+    const std::uint64_t since = std::min(std::max(idle_ns, times(frame).begin_ns), begin_ns);
+    ++bridged_;
+    put(EventKind::Wait, kBridgeThread, kPromises, frame, bridged_, since, begin_ns - since);
+    put(EventKind::Wait, kBridgeThread, kGlFences, frame, bridged_, begin_ns, monotonicNanoseconds() - begin_ns,
+        arrived ? std::uint16_t{0} : std::uint16_t{kTimedOut});
 }
 
 void HandOffFeed::bridgeSignals(std::uint64_t value) {
@@ -269,106 +274,6 @@ void HandOffFeed::hostGaveUp(std::uint64_t value, std::uint64_t begin_ns) {
     const std::lock_guard lock(mutex_);
     put(EventKind::Wait, kHostThread, syncOf(SLUICE_RENDERER_TO_HOST, value), value, value, begin_ns,
         monotonicNanoseconds() - begin_ns, kGaveUp);
-}
-
-void HandOffFeed::queueUntold() {
-    put(EventKind::ActorEnd, kRendererQueue, kNoObject, queue_frame_, 0, 0, 0, kUntold);
-    if (!blind_) {
-        ledger_.leaveUnchecked({queue_frame_ + 1, heard_ ? "the renderer told nothing more of its queue"
-                                                         : "the renderer told nothing of its queue"});
-    }
-}
-
-void HandOffFeed::queueBegins(std::uint64_t frame, std::uint64_t begin_ns) {
-    if (frame == queue_frame_) {
-        return;
-    }
-    queue_frame_ = frame;
-    put(EventKind::Frame, kRendererQueue, kNoObject, frame, frame, begin_ns);
-    put(EventKind::Wait, kRendererQueue, kSubmissions, frame, frame, begin_ns);
-}
-
-void HandOffFeed::queueTouches(std::uint64_t frame, std::uint64_t begin_ns) {
-    if (frame == touched_) {
-        return;
-    }
-    touched_ = frame;
-    // Which pass touches which image the renderer does not say. All lie between its acquires and its releases.
-    putImages(EventKind::Read, kRendererQueue, kGBufferRoles, frame, frame, begin_ns);
-    putImages(EventKind::Write, kRendererQueue, kFluidRoles, frame, frame, begin_ns);
-}
-
-void HandOffFeed::trace(const SluiceTraceEvent& event) {
-    if (event.track != SLUICE_TRACK_RENDERER_QUEUE || event.frame == 0) {
-        return;
-    }
-    const std::lock_guard lock(mutex_);
-    const auto image = [&]() -> std::uint32_t {
-        for (std::uint32_t role = 0; role < SLUICE_IMAGE_ROLE_COUNT; ++role) {
-            if (event.name != nullptr && sluice::toString(static_cast<SluiceImageRole>(role)) == event.name) {
-                return SLUICE_ROLE_BIT(role);
-            }
-        }
-        return 0;
-    };
-    heard_ = true;
-    queueBegins(event.frame, event.begin_ns);
-    switch (event.kind) {
-        case SLUICE_TRACE_WAIT:
-            put(EventKind::Wait, kRendererQueue, syncOf(SLUICE_HOST_TO_RENDERER, event.value), event.frame, event.value,
-                event.begin_ns);
-            return;
-        case SLUICE_TRACE_ACQUIRE:
-            putImages(EventKind::Acquire, kRendererQueue, image(), event.frame, kGeneralToGeneral, event.begin_ns);
-            return;
-        case SLUICE_TRACE_PASS:
-            queueTouches(event.frame, event.begin_ns);
-            return;
-        case SLUICE_TRACE_RELEASE:
-            queueTouches(event.frame, event.begin_ns);
-            putImages(EventKind::Release, kRendererQueue, image(), event.frame, kGeneralToGeneral, event.begin_ns);
-            return;
-        case SLUICE_TRACE_SIGNAL:
-            put(EventKind::Signal, kRendererQueue, syncOf(SLUICE_RENDERER_TO_HOST, event.value), event.frame,
-                event.value, event.begin_ns);
-            unheard_ = 0;
-            return;
-        default:
-            return;
-    }
-}
-
-void HandOffFeed::rendererLost() {
-    const std::lock_guard lock(mutex_);
-    put(EventKind::ActorEnd, kRendererQueue, kNoObject, submitted_);
-}
-
-std::string HandOffFeed::waitForChain(std::uint64_t value) const {
-    const std::lock_guard lock(mutex_);
-    if (blind_) {
-        return "  unknown: the renderer does not tell what its queue does\n";
-    }
-    std::string text;
-    for (const std::string& line : ledger_.waitChain(kHostThread)) {
-        text += fmt::format("  {}\n", line);
-    }
-    // The renderer has not told of this frame yet; what it was submitted with is known all the same.
-    const std::uint64_t wanted = gbufferWritten(value);
-    if (value > submitted_) {
-        return text + fmt::format("  frame {} has not been submitted; the last one is {}\n", value, submitted_);
-    }
-    text += fmt::format("  renderer's queue has frame {}, submitted to wait for host-to-renderer >= {}, which {} {}\n",
-                        value, wanted, signalled_ >= wanted ? "has passed that with" : "has reached", signalled_);
-    if (signalled_ >= wanted) {
-        return text + "  so the renderer itself is late: its GPU work, or its device\n";
-    }
-    if (promised_ >= wanted) {
-        return text + fmt::format(
-                          "  bridge thread would signal {}, but waits for the GL fence of value {}; "
-                          "GL stream has not come so far\n",
-                          wanted, wanted);
-    }
-    return text + fmt::format("  nobody has promised host-to-renderer {}: its signal was never recorded\n", wanted);
 }
 
 }  // namespace sluice::ledger

@@ -68,6 +68,7 @@ struct SyncUse {
     Event last;
     bool signalled = false, waited = false;
     std::uint64_t waited_value = 0;
+    std::uint64_t met_value = 0;  ///< of the signal that let it go: higher where signals between were forgotten
 };
 
 struct Sync {

@@ -58,12 +58,34 @@ void linkSignals(const Recording& recording, std::vector<Step>& steps) {
     }
 }
 
+/// When threads that stood still for them say that signals of streams have come, by event; 0: nobody does.
+std::vector<std::uint64_t> arrivals(const Recording& recording, const std::vector<Step>& steps) {
+    std::vector<std::uint64_t> arrived(steps.size(), 0);
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        const RecordedEvent& wait = recording.events[i];
+        if (steps[i].signal == kNone || wait.event.duration_ns < kHeldNs ||
+            isStream(recording.actors[wait.actor].kind)) {
+            continue;
+        }
+        const RecordedEvent& signal = recording.events[steps[i].signal];
+        if (!isStream(recording.actors[signal.actor].kind) || signal.event.duration_ns != 0 ||
+            signal.event.time_ns > wait.event.time_ns) {
+            continue;
+        }
+        std::uint64_t& known = arrived[steps[i].signal];
+        const std::uint64_t end = after(wait.event.time_ns, wait.event.duration_ns);
+        known = known == 0 ? end : std::min(known, end);
+    }
+    return arrived;
+}
+
 /// Places events one by one; an actor whose next event depends on one that has no place yet stands aside until it has.
 class Placer {
   public:
     Placer(const Recording& recording, std::vector<Step>& steps)
         : recording_(recording),
           steps_(steps),
+          arrived_(arrivals(recording, steps)),
           submitted_(recording.events.size(), kNone),
           placed_(recording.events.size(), false),
           queues_(recording.actors.size()) {
@@ -150,11 +172,16 @@ class Placer {
             }
             step.cause = step.end_ns > step.begin_ns && signalled > step.begin_ns ? step.signal : step.cause;
         }
+        if (arrived_[i] > step.end_ns) {
+            step.end_ns = arrived_[i];
+            step.inferred = true;
+        }
         placed_[i] = true;
     }
 
     const Recording& recording_;
     std::vector<Step>& steps_;
+    std::vector<std::uint64_t> arrived_;
     std::vector<std::uint32_t> submitted_;
     std::vector<bool> placed_;
     std::vector<std::deque<std::uint32_t>> queues_;

@@ -242,6 +242,7 @@ bool Ledger::State::wait(Actor& by, const Item& item) {
     }
     use.waited = true;
     use.waited_value = std::max(use.waited_value, event.value);
+    use.met_value = std::max(use.met_value, entry->value);
     if (sync.kind == SyncKind::Binary) {
         sync.consumed = event;
         sync.consumed_at = by.now();

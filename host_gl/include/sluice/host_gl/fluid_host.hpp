@@ -48,6 +48,8 @@ struct FrameInput {
     SluiceFluid fluid{};
     std::uint32_t outputs = 0;
     std::uint32_t flags = 0;  ///< SluiceFrameFlags
+    /// CLOCK_MONOTONIC when the engine began to draw this frame, or 0: with it, the ledger's log shows that draw.
+    std::uint64_t draw_began_ns = 0;
 };
 
 /// Owns one renderer, the imported images and the host's end of the timelines. Not thread-safe; every call needs the GL

@@ -26,7 +26,7 @@ namespace sluice::ledger {
 
 inline constexpr ActorId kHostThread = 0, kGlStream = 1, kRendererQueue = 2, kBridgeThread = 3;
 inline constexpr ObjectId kHostToRenderer = 0, kRendererToHost = 1, kSubmissions = 2, kGlFences = 3, kGlFinishes = 4,
-                          kQueueDrains = 5;
+                          kQueueDrains = 5, kPromises = 6;
 
 /// The resource that stands for a shared image.
 [[nodiscard]] constexpr ObjectId resourceOf(std::uint32_t role, std::uint32_t image_set) {
@@ -51,7 +51,8 @@ class HandOffFeed {
     // Host's side, in the order of a frame. Frame k uses set (k-1) mod N.
 
     /// GL takes the images if it has given them away, and writes version `frame` of the GBuffer.
-    void captureBegins(std::uint64_t frame);
+    /// `draw_began_ns`: when the engine began to draw that frame, 0 when nobody says; for the times of a log.
+    void captureBegins(std::uint64_t frame, std::uint64_t draw_began_ns = 0);
     /// GL gives the images away; the signal comes next.
     void captureEnds(std::uint64_t frame);
     /// submit_frame is about to be called. False once: the renderer has told nothing of its queue for many frames, and
@@ -69,8 +70,8 @@ class HandOffFeed {
     void glWaits(std::uint64_t value, bool names_images);
     /// GL records a fence that stands for `value`.
     void fencePromised(std::uint64_t value);
-    /// The bridge has waited for that fence; `arrived`: not in vain.
-    void bridgeWaited(std::uint64_t value, std::uint64_t begin_ns, bool arrived);
+    /// The bridge, idle since `idle_ns`, has waited for that fence from `begin_ns` on; `arrived`: not in vain.
+    void bridgeWaited(std::uint64_t value, std::uint64_t idle_ns, std::uint64_t begin_ns, bool arrived);
     void bridgeSignals(std::uint64_t value);
     /// glFinish has returned.
     void glFinished(std::uint64_t begin_ns);
@@ -105,6 +106,12 @@ class HandOffFeed {
     void queueBegins(std::uint64_t frame, std::uint64_t begin_ns);
     void queueTouches(std::uint64_t frame, std::uint64_t begin_ns);
 
+    /// What is remembered of a frame in flight, for the times of events that are told later.
+    struct FrameTimes {
+        std::uint64_t begin_ns = 0, submitted_ns = 0;
+    };
+    FrameTimes& times(std::uint64_t frame) { return times_[frame % times_.size()]; }
+
     LiveLedger& ledger_;
     SluiceTimelineKind kind_;
     std::uint32_t sets_;
@@ -117,10 +124,12 @@ class HandOffFeed {
     std::uint64_t queue_frame_ = 0;                   ///< the frame that the queue's events are in
     std::uint64_t touched_ = 0;                       ///< the last frame whose passes have been told
     std::uint64_t finishes_ = 0, fences_ = 0, drains_ = 0;
-    std::uint64_t bridged_ = 0;  ///< fences that the bridge has waited for, in their order
-    std::uint64_t unheard_ = 0;  ///< submissions since the queue's last signal
-    std::uint64_t taken_ = 0;    ///< submissions that did not fail
-    bool heard_ = false;         ///< the queue was, at least once
+    std::array<FrameTimes, 2 * SLUICE_MAX_IMAGE_SETS> times_{};
+    std::uint64_t queue_free_ns_ = 0;  ///< when the queue had ended the last frame that it told of
+    std::uint64_t bridged_ = 0;        ///< fences that the bridge has waited for, in their order
+    std::uint64_t unheard_ = 0;        ///< submissions since the queue's last signal
+    std::uint64_t taken_ = 0;          ///< submissions that did not fail
+    bool heard_ = false;               ///< the queue was, at least once
     bool blind_ = false;
 };
 

@@ -8,8 +8,8 @@
 // - busy: an actor's time from its first to its last event of the frame, less its stalls, and, of a stream, less the
 // time
 //   in which it had nothing to do until the next submission. A log does not say when a thread sleeps for another
-//   reason, so that counts as busy. So does a wait that nobody ever satisfied: its length is not known; the findings
-//   tell of it.
+//   reason, so that counts as busy, unless its sleep is logged as a wait. So does a wait that nobody ever satisfied:
+//   its length is not known; the findings tell of it.
 // - overlap achieved: the sum of all busy times less the length of their union: what running side by side saved against
 //   running one after the other.
 // - overlap possible: the sum of all busy times less the longest: what would be saved if all else ran beside the

@@ -7,6 +7,9 @@
 // - an event begins when it was logged, but not before the end of what its actor did before, nor before the end of the
 //   Submit that it came with;
 // - it ends after its logged duration; a stream's wait without one ends at the end of the signal that satisfied it.
+// - what the log says of a stream's signal, without a duration, is when it was recorded. A thread that asked for it
+// later
+//   and then stood still (kHeldNs or more) knows better: the signal ended when that wait did.
 // So a stream's times are lower bounds, except for those of waits and accesses that were logged with durations.
 #pragma once
 
@@ -17,11 +20,15 @@
 
 namespace sluice::ledger {
 
+/// Longer than a wait for what is already there takes: 1 to 10 us were seen, with GL fences and Vulkan timelines.
+inline constexpr std::uint64_t kHeldNs = 50'000;
+
 struct Step {
     std::uint64_t begin_ns = 0, end_ns = 0;
     std::uint32_t signal = kNone;    ///< a Wait: the Signal that satisfied it
     std::uint32_t cause = kNone;     ///< the Signal or Submit that decided when this event ended or began; else kNone
     std::uint32_t previous = kNone;  ///< of the same actor
+    bool inferred = false;           ///< a Signal: when it ended was taken from a thread's wait for it
     /// A Wait: how long its actor stood still.
     [[nodiscard]] std::uint64_t length() const { return end_ns - begin_ns; }
 };

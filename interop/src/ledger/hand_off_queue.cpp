@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// The renderer's half of the feed: what its queue did, as its trace events tell it, late and in the queue's order.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hand_off_roles.hpp"
+#include "sluice/format.hpp"
+#include "sluice/timeline.hpp"
+#include "sluice/trace.hpp"
+
+namespace sluice::ledger {
+
+void HandOffFeed::queueUntold() {
+    put(EventKind::ActorEnd, kRendererQueue, kNoObject, queue_frame_, 0, 0, 0, kUntold);
+    if (!blind_) {
+        ledger_.leaveUnchecked({queue_frame_ + 1, heard_ ? "the renderer told nothing more of its queue"
+                                                         : "the renderer told nothing of its queue"});
+    }
+}
+
+void HandOffFeed::queueBegins(std::uint64_t frame, std::uint64_t begin_ns) {
+    if (frame == queue_frame_) {
+        return;
+    }
+    queue_frame_ = frame;
+    // Until its submission it had nothing to do, as far as this frame is concerned.
+    const std::uint64_t since = std::min(std::max(queue_free_ns_, times(frame).begin_ns), begin_ns);
+    put(EventKind::Frame, kRendererQueue, kNoObject, frame, frame, since);
+    put(EventKind::Wait, kRendererQueue, kSubmissions, frame, frame, since);
+}
+
+void HandOffFeed::queueTouches(std::uint64_t frame, std::uint64_t begin_ns) {
+    if (frame == touched_) {
+        return;
+    }
+    touched_ = frame;
+    // Which pass touches which image the renderer does not say. All lie between its acquires and its releases.
+    putImages(EventKind::Read, kRendererQueue, kGBufferRoles, frame, frame, begin_ns);
+    putImages(EventKind::Write, kRendererQueue, kFluidRoles, frame, frame, begin_ns);
+}
+
+void HandOffFeed::trace(const SluiceTraceEvent& event) {
+    if (event.track != SLUICE_TRACK_RENDERER_QUEUE || event.frame == 0) {
+        return;
+    }
+    const std::lock_guard lock(mutex_);
+    const auto image = [&]() -> std::uint32_t {
+        for (std::uint32_t role = 0; role < SLUICE_IMAGE_ROLE_COUNT; ++role) {
+            if (event.name != nullptr && sluice::toString(static_cast<SluiceImageRole>(role)) == event.name) {
+                return SLUICE_ROLE_BIT(role);
+            }
+        }
+        return 0;
+    };
+    heard_ = true;
+    queueBegins(event.frame, event.begin_ns);
+    switch (event.kind) {
+        case SLUICE_TRACE_WAIT: {
+            // It is told when the wait had ended: from its submission on the queue stood there.
+            const std::uint64_t since =
+                std::min(std::max(queue_free_ns_, times(event.frame).submitted_ns), event.begin_ns);
+            put(EventKind::Wait, kRendererQueue, syncOf(SLUICE_HOST_TO_RENDERER, event.value), event.frame, event.value,
+                since, event.begin_ns - since);
+            return;
+        }
+        case SLUICE_TRACE_ACQUIRE:
+            putImages(EventKind::Acquire, kRendererQueue, image(), event.frame, kGeneralToGeneral, event.begin_ns);
+            return;
+        case SLUICE_TRACE_PASS:
+            queueTouches(event.frame, event.begin_ns);
+            return;
+        case SLUICE_TRACE_RELEASE:
+            queueTouches(event.frame, event.begin_ns);
+            putImages(EventKind::Release, kRendererQueue, image(), event.frame, kGeneralToGeneral, event.begin_ns);
+            return;
+        case SLUICE_TRACE_SIGNAL:
+            put(EventKind::Signal, kRendererQueue, syncOf(SLUICE_RENDERER_TO_HOST, event.value), event.frame,
+                event.value, event.begin_ns);
+            queue_free_ns_ = event.begin_ns;
+            unheard_ = 0;
+            return;
+        default:
+            return;
+    }
+}
+
+void HandOffFeed::rendererLost() {
+    const std::lock_guard lock(mutex_);
+    put(EventKind::ActorEnd, kRendererQueue, kNoObject, submitted_);
+}
+
+std::string HandOffFeed::waitForChain(std::uint64_t value) const {
+    const std::lock_guard lock(mutex_);
+    if (blind_) {
+        return "  unknown: the renderer does not tell what its queue does\n";
+    }
+    std::string text;
+    for (const std::string& line : ledger_.waitChain(kHostThread)) {
+        text += fmt::format("  {}\n", line);
+    }
+    // The renderer has not told of this frame yet; what it was submitted with is known all the same.
+    const std::uint64_t wanted = gbufferWritten(value);
+    if (value > submitted_) {
+        return text + fmt::format("  frame {} has not been submitted; the last one is {}\n", value, submitted_);
+    }
+    text += fmt::format("  renderer's queue has frame {}, submitted to wait for host-to-renderer >= {}, which {} {}\n",
+                        value, wanted, signalled_ >= wanted ? "has passed that with" : "has reached", signalled_);
+    if (signalled_ >= wanted) {
+        return text + "  so the renderer itself is late: its GPU work, or its device\n";
+    }
+    if (promised_ >= wanted) {
+        return text + fmt::format(
+                          "  bridge thread would signal {}, but waits for the GL fence of value {}; "
+                          "GL stream has not come so far\n",
+                          wanted, wanted);
+    }
+    return text + fmt::format("  nobody has promised host-to-renderer {}: its signal was never recorded\n", wanted);
+}
+
+}  // namespace sluice::ledger
