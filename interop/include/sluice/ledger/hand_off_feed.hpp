@@ -124,12 +124,12 @@ class HandOffFeed {
     std::uint64_t queue_frame_ = 0;                   ///< the frame that the queue's events are in
     std::uint64_t touched_ = 0;                       ///< the last frame whose passes have been told
     std::uint64_t finishes_ = 0, fences_ = 0, drains_ = 0;
-    std::array<FrameTimes, 2 * SLUICE_MAX_IMAGE_SETS> times_{};
-    std::uint64_t queue_free_ns_ = 0;  ///< when the queue had ended the last frame that it told of
-    std::uint64_t bridged_ = 0;        ///< fences that the bridge has waited for, in their order
-    std::uint64_t unheard_ = 0;        ///< submissions since the queue's last signal
-    std::uint64_t taken_ = 0;          ///< submissions that did not fail
-    bool heard_ = false;               ///< the queue was, at least once
+    std::array<FrameTimes, 8> times_{};  ///< twice as many as there can be image sets
+    std::uint64_t queue_free_ns_ = 0;    ///< when the queue had ended the last frame that it told of
+    std::uint64_t bridged_ = 0;          ///< fences that the bridge has waited for, in their order
+    std::uint64_t unheard_ = 0;          ///< submissions since the queue's last signal
+    std::uint64_t taken_ = 0;            ///< submissions that did not fail
+    bool heard_ = false;                 ///< the queue was, at least once
     bool blind_ = false;
 };
 
