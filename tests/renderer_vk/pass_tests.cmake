@@ -14,3 +14,11 @@ sluice_add_test(renderer_vk_pass_test OPTIMISED
     pass_surface_test.cpp
     pass_tiles_test.cpp
     LIBS sluice_pass_rig)
+
+# --- the fluid solver ---
+sluice_add_test(renderer_vk_simulation_test OPTIMISED
+    reference/simulation_reference.cpp
+    simulation_physics_test.cpp
+    simulation_step_test.cpp
+    LIBS sluice_renderer_vk_core)
+target_include_directories(renderer_vk_simulation_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// The passes of a step as pipelines, with the buffers that each one reads and writes.
+#pragma once
+
+#include <volk.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "passes/pipeline.hpp"
+#include "simulation/buffers.hpp"
+
+namespace sluice::vk {
+
+enum class Kernel : std::uint8_t {
+    Predict,
+    ScanSums,
+    ScanBlocks,
+    ScanCells,
+    Scatter,
+    Order,
+    Neighbours,
+    Lambda,
+    Measure,
+    Delta,
+    Velocity,
+    Curl,
+    Finish,
+    FinishConfined,
+    Count
+};
+inline constexpr std::size_t kKernels = static_cast<std::size_t>(Kernel::Count);
+
+/// Cells that one invocation of the scan walks over.
+inline constexpr std::uint32_t kScanBlock = 512;
+
+[[nodiscard]] const char* kernelName(Kernel kernel);
+
+/// Pipelines and descriptor sets. The sets name the buffers that they were bound to; bind again when one is replaced.
+class Kernels {
+  public:
+    static Result<Kernels> create(const Device& device);
+    Kernels() = default;
+    Kernels(Kernels&& other) noexcept;
+    Kernels& operator=(Kernels&& other) noexcept;
+    Kernels(const Kernels&) = delete;
+    Kernels& operator=(const Kernels&) = delete;
+    ~Kernels();
+
+    /// Points every set at `buffers`. No submitted work may use the sets.
+    void bind(const SimulationBuffers& buffers) const;
+    /// One dispatch of so many workgroups. `odd`: In and Out have changed places.
+    void dispatch(VkCommandBuffer commands, Kernel kernel, bool odd, std::uint32_t groups) const;
+
+  private:
+    const Device* device_ = nullptr;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    std::array<Pipeline, kKernels> pipelines_;
+    std::array<std::array<VkDescriptorSet, 2>, kKernels> sets_{};
+};
+
+}  // namespace sluice::vk

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/parameters.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace sluice::vk {
+namespace {
+
+std::array<float, 4> with(const Triple& v, float w) {
+    return {v[0], v[1], v[2], w};
+}
+
+/// 315 / (64 pi h^9), of poly6 (Mueller 2003, eq. 20).
+double poly6Factor(double h) {
+    return 315.0 / (64.0 * std::numbers::pi * std::pow(h, 9));
+}
+
+std::uint32_t powerOfTwo(double cells) {
+    std::uint32_t power = 4;  // three rows must be three different ones
+    while (static_cast<double>(power) < cells && power < kMostCells) {
+        power *= 2;
+    }
+    return power;
+}
+
+}  // namespace
+
+Grid planGrid(const SimulationSettings& settings, std::uint32_t particles) {
+    std::array<double, 3> extent{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        extent[i] = double{settings.high[i]} - double{settings.low[i]};
+    }
+    Grid grid;
+    // (x - low) / side is computed in floats: two particles less than a support apart must not come to lie two cells
+    // apart. Each of three roundings is at most 2^-24 of the extent, for two particles; eight of them leave room.
+    grid.side = double{settings.support()} + *std::max_element(extent.begin(), extent.end()) * 0x1p-21;
+    // checkSettings keeps x below 50,003 cells, so that the smallest table, x by 4 by 4, is within kMostCells.
+    grid.x = static_cast<std::uint32_t>(std::ceil(extent[0] / grid.side)) + 2;
+    grid.y = powerOfTwo(std::ceil(extent[1] / grid.side) + 2.0);
+    grid.z = powerOfTwo(std::ceil(extent[2] / grid.side) + 2.0);
+    const auto enough = std::clamp<std::uint64_t>(std::uint64_t{8} * particles, 1U << 16, kMostCells);
+    while (std::uint64_t{grid.x} * grid.y * grid.z > enough && (grid.y > 4 || grid.z > 4)) {
+        (grid.y > grid.z ? grid.y : grid.z) /= 2;
+    }
+    return grid;
+}
+
+double particleVolume(double radius) {
+    const double h = 4.0 * radius;
+    double sum = 0.0;
+    for (int x = -2; x <= 2; ++x) {
+        for (int y = -2; y <= 2; ++y) {
+            for (int z = -2; z <= 2; ++z) {
+                const double square = 4.0 * radius * radius * (x * x + y * y + z * z);
+                sum += std::pow(std::max(h * h - square, 0.0), 3);
+            }
+        }
+    }
+    return 1.0 / (poly6Factor(h) * sum);
+}
+
+Parameters parametersOf(const SimulationSettings& s, const Grid& grid, std::uint32_t particles, std::uint32_t stride,
+                        std::uint32_t most, float dt) {
+    const auto h = double{s.support()};
+    const double volume = particleVolume(double{s.radius});
+    // Distance at which the artificial pressure is k: 0.2 h (Macklin & Mueller 2013 give 0.1 to 0.3).
+    const double tensile = std::pow(h * h - std::pow(0.2 * h, 2), 3);
+    Parameters p{};
+    p.gravity = with(s.gravity, dt);
+    p.low = with(s.low, s.radius);
+    p.high = with(s.high, s.support());
+    p.kernel = {static_cast<float>(volume * poly6Factor(h)),
+                static_cast<float>(-volume * 45.0 / (std::numbers::pi * std::pow(h, 6))),
+                static_cast<float>(double{s.relaxation} / (h * h)), static_cast<float>(double{s.tensile} * h * h)};
+    p.fluid = {s.viscosity, s.vorticity, static_cast<float>(1.0 / tensile), 1.0F / dt};
+    p.search = {static_cast<float>(1.0 / grid.side), 0, 0, 0};
+    p.count = {particles, stride, most, static_cast<std::uint32_t>(s.solids.size())};
+    p.grid = {grid.x, grid.y - 1, grid.z - 1, grid.cells()};
+    for (std::size_t i = 0; i < s.solids.size(); ++i) {
+        const Solid& solid = s.solids[i];
+        p.solids.at(i) = {with(solid.a, static_cast<float>(solid.kind)), with(solid.b, solid.radius), solid.turn};
+    }
+    return p;
+}
+
+}  // namespace sluice::vk

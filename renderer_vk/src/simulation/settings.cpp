@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/settings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+
+namespace sluice::vk {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector minus(const Triple& a, const Triple& b) {
+    return {double{a[0]} - double{b[0]}, double{a[1]} - double{b[1]}, double{a[2]} - double{b[2]}};
+}
+double dot(const Vector& a, const Vector& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+double length(const Vector& v) {
+    return std::sqrt(dot(v, v));
+}
+Vector cross(const Vector& a, const Vector& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// v turned back by the quaternion: from the world's axes to the solid's.
+Vector turnedBack(const std::array<float, 4>& q, const Vector& v) {
+    const Vector axis{-double{q[0]}, -double{q[1]}, -double{q[2]}};
+    Vector inner = cross(axis, v);
+    for (std::size_t i = 0; i < 3; ++i) {
+        inner[i] += double{q[3]} * v[i];
+    }
+    const Vector outer = cross(axis, inner);
+    return {v[0] + 2.0 * outer[0], v[1] + 2.0 * outer[1], v[2] + 2.0 * outer[2]};
+}
+
+double distanceToBox(const Solid& solid, const Triple& x) {
+    const Vector local = turnedBack(solid.turn, minus(x, solid.a));
+    Vector out{};
+    double inner = -1e300;
+    for (std::size_t i = 0; i < 3; ++i) {
+        out[i] = std::abs(local[i]) - double{solid.b[i]};
+        inner = std::max(inner, out[i]);
+        out[i] = std::max(out[i], 0.0);
+    }
+    return inner > 0.0 ? length(out) : inner;
+}
+
+bool finite(std::span<const float> values) {
+    return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+}
+
+Error wrong(const std::string& thing, const std::string& expected, const std::string& found) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected {}, found {}", expected, found), ""};
+}
+
+std::string shown(std::span<const float> v) {
+    return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
+}
+
+Status checkRange(const char* name, float value, float low, float high) {
+    if (!(value >= low && value <= high)) {
+        return wrong(fmt::format("simulation: {}", name), fmt::format("a number in [{}, {}]", low, high),
+                     fmt::format("{}", value));
+    }
+    return {};
+}
+
+Status checkSolid(const Solid& solid, std::size_t index) {
+    const std::string thing = fmt::format("simulation: solid {}", index);
+    if (!finite(solid.a) || !finite(solid.b) || !finite(solid.turn) || !std::isfinite(solid.radius)) {
+        return wrong(thing, "finite numbers", "NaN or infinity");
+    }
+    const bool round = solid.kind == SolidKind::Sphere || solid.kind == SolidKind::Capsule;
+    if (round && solid.radius <= 0.0F) {
+        return wrong(thing, "a radius > 0", fmt::format("{}", solid.radius));
+    }
+    if (solid.kind == SolidKind::Box && *std::min_element(solid.b.begin(), solid.b.end()) <= 0.0F) {
+        return wrong(thing, "half extents > 0", shown(solid.b));
+    }
+    return {};
+}
+
+}  // namespace
+
+Solid planeSolid(const Triple& normal, const Triple& through) {
+    const double norm = length(minus(normal, {}));
+    Solid solid;
+    solid.kind = SolidKind::Plane;
+    for (std::size_t i = 0; i < 3; ++i) {
+        solid.a[i] = static_cast<float>(double{normal[i]} / norm);
+    }
+    solid.radius = static_cast<float>(dot(minus(solid.a, {}), minus(through, {})));
+    return solid;
+}
+
+Solid sphereSolid(const Triple& centre, float radius) {
+    return {SolidKind::Sphere, centre, {}, radius, {0, 0, 0, 1}};
+}
+
+Solid capsuleSolid(const Triple& a, const Triple& b, float radius) {
+    return {SolidKind::Capsule, a, b, radius, {0, 0, 0, 1}};
+}
+
+Solid boxSolid(const Triple& centre, const Triple& half, float degrees_about_y) {
+    const double angle = double{degrees_about_y} * std::numbers::pi / 360.0;
+    return {SolidKind::Box,
+            centre,
+            half,
+            0.0F,
+            {0, static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))}};
+}
+
+double distanceTo(const Solid& solid, const Triple& x) {
+    if (solid.kind == SolidKind::Plane) {
+        return dot(minus(solid.a, {}), minus(x, {})) - double{solid.radius};
+    }
+    if (solid.kind == SolidKind::Box) {
+        return distanceToBox(solid, x);
+    }
+    const Vector axis = solid.kind == SolidKind::Capsule ? minus(solid.b, solid.a) : Vector{};
+    Vector away = minus(x, solid.a);
+    const double square = dot(axis, axis);
+    const double along = square > 0.0 ? std::clamp(dot(away, axis) / square, 0.0, 1.0) : 0.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        away[i] -= along * axis[i];
+    }
+    return length(away) - double{solid.radius};
+}
+
+Status checkSettings(const SimulationSettings& s) {
+    const struct {
+        const char* name;
+        float value, low, high;
+    } ranges[] = {{"radius", s.radius, 1e-5F, 1e3F},        {"relaxation", s.relaxation, 1e-6F, 1e3F},
+                  {"tensile", s.tensile, 0.0F, 1.0F},       {"viscosity", s.viscosity, 0.0F, 1.0F},
+                  {"vorticity", s.vorticity, 0.0F, 100.0F}, {"cfl", s.cfl, 0.01F, 0.5F}};
+    for (const auto& range : ranges) {
+        if (Status status = checkRange(range.name, range.value, range.low, range.high); !status) {
+            return status;
+        }
+    }
+    if (s.iterations < 1 || s.iterations > 64) {
+        return wrong("simulation: iterations", "1 to 64", fmt::format("{}", s.iterations));
+    }
+    if (!finite(s.gravity)) {
+        return wrong("simulation: gravity", "finite numbers", shown(s.gravity));
+    }
+    // Positions are 32-bit floats: this far out their steps are a hundredth of a radius.
+    const float farthest = 1e5F * s.radius;
+    for (std::size_t i = 0; i < 3; ++i) {
+        if (!finite(s.low) || !finite(s.high) || s.low[i] < -farthest || s.high[i] > farthest) {
+            return wrong("simulation: domain", fmt::format("corners within {} m (100,000 radii)", farthest),
+                         fmt::format("{} to {}", shown(s.low), shown(s.high)));
+        }
+        if (s.high[i] - s.low[i] < 4.0F * s.radius) {
+            return wrong("simulation: domain", fmt::format("{} m (4 radii) or more each way", 4.0F * s.radius),
+                         fmt::format("{} to {}", shown(s.low), shown(s.high)));
+        }
+    }
+    if (s.solids.size() > kMaxSolids) {
+        return wrong("simulation: solids", fmt::format("at most {}", kMaxSolids), fmt::format("{}", s.solids.size()));
+    }
+    for (std::size_t i = 0; i < s.solids.size(); ++i) {
+        if (Status status = checkSolid(s.solids[i], i); !status) {
+            return status;
+        }
+    }
+    return {};
+}
+
+Status checkParticles(const SimulationSettings& settings, std::span<const float> positions,
+                      std::span<const float> velocities) {
+    if (positions.empty() || positions.size() % 3 != 0 ||
+        (!velocities.empty() && velocities.size() != positions.size())) {
+        return wrong("simulation: particles", "triples, and velocities for all or none",
+                     fmt::format("{} and {} numbers", positions.size(), velocities.size()));
+    }
+    for (std::size_t i = 0; i < positions.size(); i += 3) {
+        const Triple x{positions[i], positions[i + 1], positions[i + 2]};
+        const std::string thing = fmt::format("particle {}", i / 3);
+        if (!finite(x) || (!velocities.empty() && !finite(velocities.subspan(i, 3)))) {
+            return wrong(thing, "finite position and velocity",
+                         velocities.empty() ? shown(x) : shown(x) + " and " + shown(velocities.subspan(i, 3)));
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (x[axis] < settings.low[axis] || x[axis] > settings.high[axis]) {
+                return wrong(
+                    thing, fmt::format("a position in the domain, {} to {}", shown(settings.low), shown(settings.high)),
+                    shown(x));
+            }
+        }
+        for (std::size_t solid = 0; solid < settings.solids.size(); ++solid) {
+            if (distanceTo(settings.solids[solid], x) < 0.0) {
+                return wrong(thing, fmt::format("a position outside solid {}", solid), shown(x));
+            }
+        }
+    }
+    return {};
+}
+
+}  // namespace sluice::vk

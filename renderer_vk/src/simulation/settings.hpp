@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// What a simulation is told: the fluid, the box that holds it and the solids in it. Pure: no Vulkan type.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "sluice/result.hpp"
+
+namespace sluice::vk {
+
+using Triple = std::array<float, 3>;
+
+enum class SolidKind : std::uint32_t { Plane = 0, Sphere = 1, Capsule = 2, Box = 3 };
+
+/// Something that fluid stays out of. Make it with the functions below.
+struct Solid {
+    SolidKind kind = SolidKind::Sphere;
+    Triple a{};                             ///< plane: unit normal; others: centre or first end
+    Triple b{};                             ///< capsule: second end; box: half extents
+    float radius = 0.0F;                    ///< sphere, capsule; plane: offset along the normal
+    std::array<float, 4> turn{0, 0, 0, 1};  ///< box: unit quaternion from its axes to the world's
+};
+/// Everything below dot(normal, x) = offset; the normal need not be unit, but not 0.
+[[nodiscard]] Solid planeSolid(const Triple& normal, const Triple& through);
+[[nodiscard]] Solid sphereSolid(const Triple& centre, float radius);
+[[nodiscard]] Solid capsuleSolid(const Triple& a, const Triple& b, float radius);
+/// Turned about +y by `degrees`, as host::Crate is.
+[[nodiscard]] Solid boxSolid(const Triple& centre, const Triple& half, float degrees_about_y = 0.0F);
+
+/// Distance from x to the solid's surface, metres; negative inside.
+[[nodiscard]] double distanceTo(const Solid& solid, const Triple& x);
+
+inline constexpr std::uint32_t kMaxSolids = 64;
+/// Position-based fluid; docs/simulation.md has every term. Metres, seconds.
+struct SimulationSettings {
+    float radius = 0.02F;                  ///< of a particle; at rest they are 2 radii apart
+    Triple low{-1, 0, -1}, high{1, 2, 1};  ///< the domain: no centre comes nearer to its faces than a radius
+    Triple gravity{0, -9.81F, 0};          ///< m/s^2
+    std::uint32_t iterations = 4;          ///< of the density constraint per step, 1 to 64
+    float relaxation = 0.1F;               ///< epsilon of the constraint, times 1/h^2
+    float tensile = 0.0005F;               ///< k of the artificial pressure, times h^2
+    float viscosity = 0.02F;               ///< c of XSPH, 0 to 1
+    float vorticity = 0.0F;                ///< epsilon of vorticity confinement, m/s; not 0: momentum is not kept
+    float cfl = 0.4F;                      ///< supports that a particle may fly in one step
+    std::vector<Solid> solids;
+
+    [[nodiscard]] float support() const { return 4.0F * radius; }
+};
+
+/// The first setting that is not finite or out of its range, named.
+[[nodiscard]] Status checkSettings(const SimulationSettings& settings);
+/// The first particle that is not finite, outside the domain or within a solid, named. Velocities: empty or as many.
+[[nodiscard]] Status checkParticles(const SimulationSettings& settings, std::span<const float> positions,
+                                    std::span<const float> velocities);
+
+}  // namespace sluice::vk

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+// Position-based fluid on the device (Macklin & Mueller 2013). docs/simulation.md has the passes and their formulas.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device/device.hpp"
+#include "simulation/settings.hpp"
+#include "sluice/result.hpp"
+
+namespace sluice::vk {
+
+/// Particles in the order in which they were given. Triples are packed.
+struct ParticleState {
+    std::vector<float> position, velocity;
+};
+
+/// What one step did, or tried to do.
+struct StepReport {
+    double seconds = 0.0;  ///< its length
+    double speed = 0.0;    ///< fastest particle after it, m/s
+    double move = 0.0;     ///< farthest that a particle went, m
+    std::uint32_t most_neighbours = 0;
+};
+/// What it took to get from one time to another.
+struct AdvanceReport {
+    std::uint32_t steps = 0;
+    std::uint32_t split = 0;  ///< steps that were taken again in halves, because something flew too far
+    double shortest = 0.0;    ///< step, seconds
+    double speed = 0.0;       ///< greatest of all steps, m/s
+    std::uint32_t most_neighbours = 0;
+};
+
+/// Every neighbour list, for tests: `list[i]` holds the identities of the neighbours of the particle with identity i.
+struct NeighbourLists {
+    std::vector<std::vector<std::uint32_t>> list;
+    std::vector<float> position;  ///< predicted, by identity: what the lists were made from
+};
+
+/// Owns its buffers on a device that must outlive it. Each call waits for the device: calls are made from one thread.
+/// The same device, settings, particles and calls give the same bits.
+class Solver {
+  public:
+    static Result<std::unique_ptr<Solver>> create(const Device& device, const SimulationSettings& settings);
+    Solver(const Solver&) = delete;
+    Solver& operator=(const Solver&) = delete;
+    ~Solver();
+
+    /// Replaces all particles; velocities are 0 if there are none. Refused, with the particle named, if one is not
+    /// finite, outside the domain or in a solid; the particles before then stay.
+    [[nodiscard]] Status setParticles(std::span<const float> positions, std::span<const float> velocities);
+    /// One step of that length, whatever the CFL number. On an error the state is that before the step.
+    [[nodiscard]] Result<StepReport> step(double seconds);
+    /// As many steps as the CFL rule asks for, none longer than `longest`. An error says why it could not be done; the
+    /// state is then that of the last good step.
+    [[nodiscard]] Result<AdvanceReport> advance(double seconds, double longest);
+
+    [[nodiscard]] std::uint32_t count() const;
+    [[nodiscard]] Result<ParticleState> read() const;
+    /// Density of each particle after the last step, in densities of rest; walls count as fluid at rest.
+    [[nodiscard]] Result<std::vector<float>> densities() const;
+    [[nodiscard]] Result<NeighbourLists> lists() const;
+    /// Milliseconds of each pass since the start, in order of first use; empty where the device has no timestamps.
+    [[nodiscard]] std::vector<std::pair<std::string, double>> times() const;
+
+  private:
+    struct State;
+    explicit Solver(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace sluice::vk

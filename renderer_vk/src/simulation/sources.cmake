@@ -1,0 +1,12 @@
+# SPDX-License-Identifier: MIT
+# Included by renderer_vk/CMakeLists.txt: the fluid solver.
+list(APPEND SLUICE_VK_SOURCES
+    src/simulation/buffers.cpp
+    src/simulation/kernels.cpp
+    src/simulation/parameters.cpp
+    src/simulation/settings.cpp
+    src/simulation/solver.cpp
+    src/simulation/step_timer.cpp
+    src/simulation/time_step.cpp
+    src/simulation/transfer.cpp
+)

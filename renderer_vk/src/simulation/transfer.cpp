@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "simulation/transfer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <utility>
+
+#include "device/commands.hpp"
+#include "device/one_shot.hpp"
+
+namespace sluice::vk {
+namespace {
+
+using Vector = std::array<float, 4>;
+
+std::vector<Vector> padded(std::span<const float> triples, std::size_t count) {
+    std::vector<Vector> vectors(count, Vector{});
+    for (std::size_t i = 0; i < triples.size() / 3; ++i) {
+        vectors[i] = {triples[3 * i], triples[3 * i + 1], triples[3 * i + 2], 0.0F};
+    }
+    return vectors;
+}
+
+template <typename T>
+Status upload(const Device& device, const Buffer& to, const std::vector<T>& values) {
+    const VkDeviceSize bytes = values.size() * sizeof(T);
+    Result<Buffer> staging =
+        Buffer::create(device, {bytes, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, BufferPlace::Upload, "simulation upload"});
+    if (!staging) {
+        return staging.error();
+    }
+    std::memcpy(staging.value().mapped().data(), values.data(), bytes);
+    return runOnce(device, [&](VkCommandBuffer commands) {
+        const VkBufferCopy whole{0, 0, bytes};
+        device.fn.vkCmdCopyBuffer(commands, staging.value().buffer(), to.buffer(), 1, &whole);
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    });
+}
+
+template <typename T>
+Result<std::vector<T>> download(const Device& device, const Buffer& from, std::size_t count) {
+    std::vector<T> values(count);
+    const VkDeviceSize bytes = count * sizeof(T);
+    Result<Buffer> staging =
+        Buffer::create(device, {bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::Readback, "simulation download"});
+    if (!staging) {
+        return staging.error();
+    }
+    const Status status = runOnce(device, [&](VkCommandBuffer commands) {
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+        const VkBufferCopy whole{0, 0, bytes};
+        device.fn.vkCmdCopyBuffer(commands, from.buffer(), staging.value().buffer(), 1, &whole);
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    });
+    if (!status) {
+        return status.error();
+    }
+    std::memcpy(values.data(), staging.value().mapped().data(), bytes);
+    return values;
+}
+
+/// The three numbers of each vector, put where its identity says.
+std::vector<float> byIdentity(const std::vector<Vector>& vectors, const std::vector<std::uint32_t>& identity) {
+    std::vector<float> triples(3 * vectors.size());
+    for (std::size_t i = 0; i < vectors.size(); ++i) {
+        std::copy_n(vectors[i].begin(), 3, triples.begin() + 3 * static_cast<std::ptrdiff_t>(identity[i]));
+    }
+    return triples;
+}
+
+Result<std::vector<std::uint32_t>> identities(const Device& device, const SimulationBuffers& buffers,
+                                              std::uint32_t count, bool odd) {
+    return download<std::uint32_t>(device, buffers[odd ? Slot::IdentityOut : Slot::IdentityIn], count);
+}
+
+}  // namespace
+
+Status uploadParticles(const Device& device, const SimulationBuffers& buffers, std::span<const float> positions,
+                       std::span<const float> velocities) {
+    const std::size_t count = positions.size() / 3;
+    std::vector<std::uint32_t> identity(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        identity[i] = static_cast<std::uint32_t>(i);
+    }
+    Status status = upload(device, buffers[Slot::PositionIn], padded(positions, count));
+    if (status) {
+        status = upload(device, buffers[Slot::VelocityIn], padded(velocities, count));
+    }
+    if (status) {
+        status = upload(device, buffers[Slot::IdentityIn], identity);
+    }
+    return status;
+}
+
+Result<ParticleState> downloadParticles(const Device& device, const SimulationBuffers& buffers, std::uint32_t count,
+                                        bool odd) {
+    const auto identity = identities(device, buffers, count, odd);
+    if (!identity) {
+        return identity.error();
+    }
+    const auto position = download<Vector>(device, buffers[odd ? Slot::PositionOut : Slot::PositionIn], count);
+    if (!position) {
+        return position.error();
+    }
+    const auto velocity = download<Vector>(device, buffers[odd ? Slot::VelocityOut : Slot::VelocityIn], count);
+    if (!velocity) {
+        return velocity.error();
+    }
+    return ParticleState{byIdentity(position.value(), identity.value()),
+                         byIdentity(velocity.value(), identity.value())};
+}
+
+Result<std::vector<float>> downloadDensities(const Device& device, const SimulationBuffers& buffers,
+                                             std::uint32_t count, bool odd) {
+    const auto identity = identities(device, buffers, count, odd);
+    if (!identity) {
+        return identity.error();
+    }
+    const auto measured = download<Vector>(device, buffers[Slot::Pushed], count);
+    if (!measured) {
+        return measured.error();
+    }
+    std::vector<float> densities(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        densities[identity.value()[i]] = measured.value()[i][3];
+    }
+    return densities;
+}
+
+Result<NeighbourLists> downloadLists(const Device& device, const SimulationBuffers& buffers, std::uint32_t count,
+                                     bool odd) {
+    const auto identity = identities(device, buffers, count, odd);
+    if (!identity) {
+        return identity.error();
+    }
+    const auto length = download<std::uint32_t>(device, buffers[Slot::ListCount], count);
+    if (!length) {
+        return length.error();
+    }
+    const auto rows =
+        download<std::uint32_t>(device, buffers[Slot::List], std::size_t{buffers.stride()} * buffers.neighbours);
+    if (!rows) {
+        return rows.error();
+    }
+    // The step's own In buffers are Out by now; predicted positions lie in their order.
+    const auto before = identities(device, buffers, count, !odd);
+    if (!before) {
+        return before.error();
+    }
+    const auto predicted = download<Vector>(device, buffers[Slot::Predicted], count);
+    if (!predicted) {
+        return predicted.error();
+    }
+    NeighbourLists lists;
+    lists.position = byIdentity(predicted.value(), before.value());
+    lists.list.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+        std::vector<std::uint32_t>& list = lists.list[identity.value()[i]];
+        for (std::uint32_t k = 0; k < length.value()[i]; ++k) {
+            list.push_back(identity.value()[rows.value()[std::size_t{k} * buffers.stride() + i]]);
+        }
+    }
+    return lists;
+}
+
+}  // namespace sluice::vk

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: MIT
+// Particles to and from the solver's buffers, by identity: the order in which they were given.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "simulation/buffers.hpp"
+#include "simulation/solver.hpp"
+
+namespace sluice::vk {
+
+/// Into the In buffers of the even state. Velocities: empty or as many.
+[[nodiscard]] Status uploadParticles(const Device& device, const SimulationBuffers& buffers,
+                                     std::span<const float> positions, std::span<const float> velocities);
+[[nodiscard]] Result<ParticleState> downloadParticles(const Device& device, const SimulationBuffers& buffers,
+                                                      std::uint32_t count, bool odd);
+/// What the Measure pass has left.
+[[nodiscard]] Result<std::vector<float>> downloadDensities(const Device& device, const SimulationBuffers& buffers,
+                                                           std::uint32_t count, bool odd);
+[[nodiscard]] Result<NeighbourLists> downloadLists(const Device& device, const SimulationBuffers& buffers,
+                                                   std::uint32_t count, bool odd);
+
+}  // namespace sluice::vk

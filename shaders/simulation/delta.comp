@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Moves each particle as its own lambda and its neighbours' ask (Macklin & Mueller 2013, eqs. 13 and 14), and out of the
+// solids. What i does to j, j does to i: without walls the sum of all moves is zero to round-off.
+#include "solids.glsl"
+
+layout(local_size_x = 64) in;
+layout(set = 0, binding = 1) uniform textureBuffer pushed;
+layout(set = 0, binding = 2) uniform utextureBuffer list;
+layout(std430, set = 0, binding = 3) readonly buffer ListCount { uint list_count[]; };
+layout(std430, set = 0, binding = 4) readonly buffer Walls { vec4 walls_of[]; };
+layout(std430, set = 0, binding = 5) writeonly buffer Sorted { vec4 sorted[]; };
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= p.count.x) {
+        return;
+    }
+    const vec4 self = texelFetch(pushed, int(i));
+    const float h = p.high.w;
+    const uint number = list_count[i];
+    vec3 delta = vec3(0);
+    uint at = i;
+    for (uint k = 0u; k < number; ++k, at += p.count.y) {
+        const uint j = texelFetch(list, int(at)).x;
+        const vec4 other = texelFetch(pushed, int(j));
+        const vec4 d = between(self.xyz, other.xyz, i, j);
+        const float near = max(h - d.w, 0.0);
+        const float bracket = max(h * h - d.w * d.w, 0.0);
+        float tensile = bracket * bracket * bracket * p.fluid.z;
+        tensile *= tensile;
+        tensile *= tensile * p.kernel.w;
+        delta += d.xyz * ((self.w + other.w - tensile) * p.kernel.y * near * near / d.w);
+    }
+    delta += self.w * walls_of[i].xyz;
+    sorted[i] = vec4(collided(self.xyz + delta), 0);
+}

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// XSPH viscosity (Schechter & Bridson 2012), vorticity confinement, and the end of the step: the state that the next one
+// starts from, with what the host judges it by.
+#include "simulation.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint CONFINE = 0u;
+layout(set = 0, binding = 1) uniform textureBuffer sorted;
+layout(set = 0, binding = 2) uniform textureBuffer moving;
+layout(set = 0, binding = 3) uniform textureBuffer curl_of;  // read only if CONFINE
+layout(set = 0, binding = 4) uniform utextureBuffer list;
+layout(std430, set = 0, binding = 5) readonly buffer ListCount { uint list_count[]; };
+layout(std430, set = 0, binding = 6) readonly buffer Before { vec4 before[]; };
+layout(std430, set = 0, binding = 7) writeonly buffer Position { vec4 position[]; };
+layout(std430, set = 0, binding = 8) writeonly buffer Velocity { vec4 velocity[]; };
+layout(std430, set = 0, binding = 9) buffer Status { uint faults, most_neighbours, speed, move; };
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= p.count.x) {
+        return;
+    }
+    const vec3 x = texelFetch(sorted, int(i)).xyz;
+    const vec3 v = texelFetch(moving, int(i)).xyz;
+    const float h = p.high.w;
+    const uint number = list_count[i];
+    vec3 drift = vec3(0);
+    vec3 eta = vec3(0);
+    uint at = i;
+    for (uint k = 0u; k < number; ++k, at += p.count.y) {
+        const uint j = texelFetch(list, int(at)).x;
+        const vec4 d = between(x, texelFetch(sorted, int(j)).xyz, i, j);
+        const float bracket = max(h * h - d.w * d.w, 0.0);
+        drift += (texelFetch(moving, int(j)).xyz - v) * (bracket * bracket * bracket);
+        if (CONFINE == 1u) {
+            const float near = max(h - d.w, 0.0);
+            eta += d.xyz * (texelFetch(curl_of, int(j)).w * p.kernel.y * near * near / d.w);
+        }
+    }
+    vec3 result = v + p.fluid.x * p.kernel.x * drift;
+    if (CONFINE == 1u) {
+        const float steep = length(eta);
+        const vec3 curl = texelFetch(curl_of, int(i)).xyz;
+        result += p.gravity.w * p.fluid.y * (steep > 1e-6 ? cross(eta / steep, curl) : vec3(0));
+    }
+    position[i] = vec4(x, 0);
+    velocity[i] = vec4(result, 0);
+    if (isBad(x) || isBad(result)) {
+        atomicOr(faults, FAULT_NOT_FINITE);
+    }
+    // Floats that are not negative are ordered as their bits are.
+    const uint faster = floatBitsToUint(length(result));
+    const uint farther = floatBitsToUint(length(x - before[i].xyz));
+    if (faster > speed) {
+        atomicMax(speed, faster);
+    }
+    if (farther > move) {
+        atomicMax(move, farther);
+    }
+}

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// How hard each particle pushes: the multiplier of its density constraint (Macklin & Mueller 2013, eq. 11). A density
+// below that of rest pushes nobody: at a free surface it only means that there are too few particles to ask.
+// Input: sorted positions, lists. Outputs: position with lambda (m^2, <= 0) in w; gradient and density of the walls.
+#include "solids.glsl"
+
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint MEASURE = 0u;  // 1: w becomes the density instead, and nothing else is written
+layout(set = 0, binding = 1) uniform textureBuffer sorted;
+layout(set = 0, binding = 2) uniform utextureBuffer list;
+layout(std430, set = 0, binding = 3) readonly buffer ListCount { uint list_count[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer Pushed { vec4 pushed[]; };
+layout(std430, set = 0, binding = 5) writeonly buffer Walls { vec4 walls_of[]; };
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= p.count.x) {
+        return;
+    }
+    const vec3 x = texelFetch(sorted, int(i)).xyz;
+    const float h = p.high.w;
+    const uint number = list_count[i];
+    float sum = h * h * h * h * h * h;
+    float squares = 0.0;
+    vec3 gradient = vec3(0);
+    uint at = i;
+    for (uint k = 0u; k < number; ++k, at += p.count.y) {
+        const uint j = texelFetch(list, int(at)).x;
+        const vec4 d = between(x, texelFetch(sorted, int(j)).xyz, i, j);
+        const float bracket = max(h * h - d.w * d.w, 0.0);
+        sum += bracket * bracket * bracket;
+        const float near = max(h - d.w, 0.0);
+        const float slope = p.kernel.y * near * near;
+        squares += slope * slope;
+        gradient += d.xyz * (slope / d.w);
+    }
+    const vec4 walls = wallsAt(x);
+    gradient += walls.xyz;
+    const float density = p.kernel.x * sum + walls.w;
+    if (MEASURE == 1u) {
+        pushed[i] = vec4(x, density);
+        return;
+    }
+    pushed[i] = vec4(x, -max(density - 1.0, 0.0) / (squares + dot(gradient, gradient) + p.kernel.z));
+    walls_of[i] = walls;
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#version 460
+#extension GL_GOOGLE_include_directive : require
+// Moves every particle by its velocity and gravity, keeps it out of the solids, and counts it into its cell.
+// Inputs: position, velocity. Outputs: predicted position, cell and arrival of each particle, particles of each cell.
+// The order of arrival is left to chance and forgotten in order.comp.
+#include "solids.glsl"
+
+layout(local_size_x = 64) in;
+layout(std430, set = 0, binding = 1) readonly buffer Position { vec4 position[]; };
+layout(std430, set = 0, binding = 2) readonly buffer Velocity { vec4 velocity[]; };
+layout(std430, set = 0, binding = 3) writeonly buffer Predicted { vec4 predicted[]; };
+layout(std430, set = 0, binding = 4) writeonly buffer Arrival { uvec2 arrival[]; };
+layout(std430, set = 0, binding = 5) buffer Cells { uint cells[]; };
+layout(std430, set = 0, binding = 6) buffer Status { uint faults, most_neighbours, speed, move; };
+
+void main() {
+    const uint i = gl_GlobalInvocationID.x;
+    if (i >= p.count.x) {
+        return;
+    }
+    const float dt = p.gravity.w;
+    const vec3 start = position[i].xyz;
+    const vec3 moved = start + dt * (velocity[i].xyz + dt * p.gravity.xyz);
+    if (isBad(moved)) {
+        atomicOr(faults, FAULT_NOT_FINITE);
+    }
+    const vec3 x = collided(moved);
+    predicted[i] = vec4(x, 0);
+    const ivec3 cell = cellOf(x);
+    const uint index = rowOf(cell.y, cell.z) + uint(cell.x);
+    arrival[i] = uvec2(index, atomicAdd(cells[index], 1u));
+}

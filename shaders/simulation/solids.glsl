@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Solids as analytic signed distances. Exact for spheres, capsules, planes and the faces of boxes.
+#ifndef SLUICE_SOLIDS_GLSL
+#define SLUICE_SOLIDS_GLSL
+#include "simulation.glsl"
+
+vec3 rotated(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+
+vec3 unitOr(vec3 v, vec3 otherwise) {
+    const float length_ = length(v);
+    return length_ > 1e-20 ? v / length_ : otherwise;
+}
+
+// xyz = unit normal out of the solid, w = distance to its surface, negative inside.
+vec4 distanceTo(uint k, vec3 x) {
+    const Solid s = p.solid[k];
+    const uint kind = uint(s.a.w);
+    if (kind == 0u) {  // plane
+        return vec4(s.a.xyz, dot(s.a.xyz, x) - s.b.w);
+    }
+    if (kind == 3u) {  // box
+        const vec3 local = rotated(vec4(-s.q.xyz, s.q.w), x - s.a.xyz);
+        const vec3 side = vec3(local.x < 0.0 ? -1.0 : 1.0, local.y < 0.0 ? -1.0 : 1.0, local.z < 0.0 ? -1.0 : 1.0);
+        const vec3 out_ = abs(local) - s.b.xyz;
+        const float inner = max(out_.x, max(out_.y, out_.z));
+        // The nearest face; of equal ones the first.
+        const vec3 face = out_.x >= inner ? vec3(1, 0, 0) : (out_.y >= inner ? vec3(0, 1, 0) : vec3(0, 0, 1));
+        const vec3 normal = inner > 0.0 ? unitOr(max(out_, vec3(0)), face) : face;
+        return vec4(rotated(s.q, normal * side), inner > 0.0 ? length(max(out_, vec3(0))) : inner);
+    }
+    // Sphere, or capsule: a sphere about the nearest point of its axis.
+    const vec3 axis = kind == 2u ? s.b.xyz - s.a.xyz : vec3(0);
+    const float square = dot(axis, axis);
+    const float along = square > 0.0 ? clamp(dot(x - s.a.xyz, axis) / square, 0.0, 1.0) : 0.0;
+    const vec3 away = x - (s.a.xyz + along * axis);
+    return vec4(unitOr(away, vec3(0, 1, 0)), length(away) - s.b.w);
+}
+
+// The nearest place where a particle's centre may be: a radius away from every solid, and within the domain whatever
+// the solids say.
+vec3 collided(vec3 x) {
+    for (uint k = 0u; k < p.count.w; ++k) {
+        const vec4 d = distanceTo(k, x);
+        x += d.xyz * max(p.low.w - d.w, 0.0);
+    }
+    return clamp(x, p.low.xyz + p.low.w, p.high.xyz - p.low.w);
+}
+
+// What a wall adds to the density if fluid at rest filled it: poly6 integrated over a half-space whose plane is `q`
+// supports away, 0 <= q <= 1.
+float halfSpace(float q) {
+    const float s = q * q;
+    return 0.5 - (315.0 / 256.0) * q * (1.0 + s * (-4.0 / 3.0 + s * (6.0 / 5.0 + s * (-4.0 / 7.0 + s / 9.0))));
+}
+// Minus its derivative along the normal, of the spiky kernel, 1/m.
+float halfSpaceSlope(float q) {
+    const float a = 1.0 - q;
+    const float s = a * a;
+    return 30.0 / p.high.w * s * s * (0.25 - 0.2 * a);
+}
+// Adds the wall at distance `d` with unit normal `n` to the walls so far: xyz gradient, w density. Where two walls
+// overlap they are counted once, as if each took its share of what the other left (exact in a right-angled edge at d = 0).
+vec4 withWall(vec4 walls, vec3 n, float d) {
+    const float q = clamp(d / p.high.w, 0.0, 1.0);
+    const float share = halfSpace(q);
+    return vec4(walls.xyz * (1.0 - share) - n * (halfSpaceSlope(q) * (1.0 - walls.w)),
+                walls.w + share * (1.0 - walls.w));
+}
+vec4 wallsAt(vec3 x) {
+    vec4 walls = vec4(0);
+    const vec3 low = x - p.low.xyz;
+    const vec3 high = p.high.xyz - x;
+    walls = withWall(walls, vec3(1, 0, 0), low.x);
+    walls = withWall(walls, vec3(-1, 0, 0), high.x);
+    walls = withWall(walls, vec3(0, 1, 0), low.y);
+    walls = withWall(walls, vec3(0, -1, 0), high.y);
+    walls = withWall(walls, vec3(0, 0, 1), low.z);
+    walls = withWall(walls, vec3(0, 0, -1), high.z);
+    for (uint k = 0u; k < p.count.w; ++k) {
+        const vec4 d = distanceTo(k, x);
+        walls = withWall(walls, d.xyz, d.w);
+    }
+    return walls;
+}
+
+#endif

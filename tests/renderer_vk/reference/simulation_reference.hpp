@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+// One step of the solver in double precision, from the formulas of docs/simulation.md: every pair is tried, nothing is
+// sorted, no code is shared with the passes or with parameters.cpp.
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "simulation/settings.hpp"
+
+namespace sluice::vk::test {
+
+using Vec = std::array<double, 3>;
+
+struct ReferenceState {
+    std::vector<Vec> position, velocity;
+    std::vector<double> density;  ///< after the step
+};
+
+[[nodiscard]] ReferenceState referenceStep(const SimulationSettings& settings, const ReferenceState& before, double dt);
+
+}  // namespace sluice::vk::test

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Particles to simulate, and a device to do it on.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "device/device.hpp"
+#include "simulation/solver.hpp"
+
+namespace sluice::vk::test {
+
+/// One device per test, with synchronisation validation, which must stay silent.
+class SimulationTest : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        DeviceRequest request;
+        request.match_host = false;
+        request.validation = true;
+        auto device = Device::create(request);
+        ASSERT_TRUE(device.ok()) << device.error().message();
+        device_ = std::move(device).value();
+    }
+    void TearDown() override {
+        if (device_) {
+            EXPECT_EQ(device_->validationMessages(), 0U);
+        }
+    }
+    [[nodiscard]] std::unique_ptr<Solver> make(const SimulationSettings& settings, const std::vector<float>& positions,
+                                               const std::vector<float>& velocities = {}) const {
+        auto solver = Solver::create(*device_, settings);
+        EXPECT_TRUE(solver.ok()) << solver.error().message();
+        const Status status = solver.value()->setParticles(positions, velocities);
+        EXPECT_TRUE(status.ok()) << status.error().message();
+        return std::move(solver).value();
+    }
+    [[nodiscard]] const Device& device() const { return *device_; }
+
+  private:
+    std::unique_ptr<Device> device_;
+};
+
+/// Uniform numbers that are the same with every standard library.
+class Dice {
+  public:
+    explicit Dice(std::uint32_t seed) : engine_(seed) {}
+    float between(float low, float high) {
+        return low + (high - low) * static_cast<float>(engine_() >> 8) / static_cast<float>(1U << 24);
+    }
+
+  private:
+    std::mt19937 engine_;
+};
+
+/// x by y by z particles, `spacing` apart, each moved by up to `jitter` along every axis; the first is half a spacing
+/// from `corner`.
+inline std::vector<float> lattice(const Triple& corner, int x, int y, int z, float spacing, float jitter,
+                                  std::uint32_t seed) {
+    Dice dice(seed);
+    std::vector<float> positions;
+    for (int i = 0; i < x * y * z; ++i) {
+        const int cell[3] = {i % x, i / x % y, i / x / y};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            positions.push_back(corner[axis] + spacing * (static_cast<float>(cell[axis]) + 0.5F) +
+                                dice.between(-jitter, jitter));
+        }
+    }
+    return positions;
+}
+
+}  // namespace sluice::vk::test
