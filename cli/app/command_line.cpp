@@ -136,8 +136,11 @@ void addRender(Line& line) {
          "longest wait for the renderer before the frame\ngoes on without fluid; 10 if not given")
         ->type_name("SECONDS");
     c.add_option_function<std::string>(
-         "--fault", into(o.fault, parseFault),
-         "for tests: make a mistake in the order of frame\nFRAME (docs/cli.md has the kinds)")
+         "--fault",
+         [&o](const std::string& text) {
+             namesHostFault(text) ? into(o.host_fault, parseHostFault)(text) : into(o.fault, parseFault)(text);
+         },
+         "for tests: let something go wrong in frame FRAME\n(docs/cli.md has the kinds)")
         ->type_name("KIND@FRAME");
     addVerbosity(c, line);
     c.footer(std::string("A particle file may be .pos, .ply or .bgeo. Every input is checked before the\n"

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "sluice/host_gl/fault_plan.hpp"
+#include "sluice/host_gl/host_fault.hpp"
 #include "sluice/plugin.h"
 #include "sluice/scene/scene.hpp"
 
@@ -26,6 +27,7 @@ struct RenderOptions {
     bool ledger = false;
     std::string ledger_log;  ///< implies ledger
     std::optional<host::FaultPlan> fault;
+    std::optional<host::HostFault> host_fault;
     double deadline_s = 10.0;  ///< of a CPU wait for the renderer
 };
 

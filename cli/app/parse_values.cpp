@@ -69,6 +69,25 @@ Result<float> parseRadius(std::string_view text) {
     return radius;
 }
 
+bool namesHostFault(std::string_view text) {
+    const std::string_view name = text.substr(0, text.find('@'));
+    return std::any_of(host::kHostFaultNames.begin(), host::kHostFaultNames.end(),
+                       [&](const auto& one) { return one.first == name; });
+}
+
+Result<host::HostFault> parseHostFault(std::string_view text) {
+    const std::size_t at = std::min(text.find('@'), text.size());
+    const std::size_t equals = std::min(text.find('=', at), text.size());
+    const auto* kind = std::find_if(host::kHostFaultNames.begin(), host::kHostFaultNames.end(),
+                                    [&](const auto& one) { return one.first == text.substr(0, at); });
+    const std::int64_t frame = at < text.size() ? whole(text.substr(at + 1, equals - at - 1)) : kNotWhole;
+    const std::int64_t value = equals < text.size() ? whole(text.substr(equals + 1)) : 0;
+    if (kind == host::kHostFaultNames.end() || frame < 1 || value < 0) {
+        return badValue("--fault", "KIND@FRAME[=VALUE] of a host fault (docs/cli.md)", text);
+    }
+    return host::HostFault{kind->second, static_cast<std::uint64_t>(frame), static_cast<std::uint64_t>(value)};
+}
+
 Result<host::FaultPlan> parseFault(std::string_view text) {
     const std::size_t at = text.find('@');
     const std::size_t equals = text.find('=', at == std::string_view::npos ? 0 : at);
@@ -88,6 +107,9 @@ Result<host::FaultPlan> parseFault(std::string_view text) {
         std::string kinds;
         for (const auto& [one, ignored] : host::kFaultNames) {
             kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", one);
+        }
+        for (const auto& [one, ignored] : host::kHostFaultNames) {
+            kinds += fmt::format(", {}", one);
         }
         return badValue("--fault", fmt::format("KIND[/to-renderer|/to-host]@FRAME[=VALUE], KIND one of {}", kinds),
                         text);

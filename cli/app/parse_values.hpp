@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "sluice/host_gl/fault_plan.hpp"
+#include "sluice/host_gl/host_fault.hpp"
 #include "sluice/result.hpp"
 #include "sluice/scene/scene.hpp"
 
@@ -20,6 +21,10 @@ namespace sluice::cli {
 /// Metres, above 0.
 [[nodiscard]] Result<float> parseRadius(std::string_view text);
 
+/// Whether `text` begins with the name of a host fault; all else is parseFault's.
+[[nodiscard]] bool namesHostFault(std::string_view text);
+/// KIND@FRAME, with =VALUE behind it where the kind has one.
+[[nodiscard]] Result<host::HostFault> parseHostFault(std::string_view text);
 /// KIND@FRAME, KIND/to-renderer@FRAME or KIND/to-host@FRAME, with =VALUE behind it where the kind has one.
 [[nodiscard]] Result<host::FaultPlan> parseFault(std::string_view text);
 /// Seconds, above 0 and at most 3600.

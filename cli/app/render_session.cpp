@@ -138,6 +138,8 @@ Status startFluid(RenderSession& session, const RenderInputs& inputs, const Rend
     config.trace = session.trace.get();
     config.ledger = session.ledger.get();
     config.fault = options.fault;
+    config.host_fault = options.host_fault;
+    config.call_alarm_ns = static_cast<std::uint64_t>(options.deadline_s * 1e9);
     config.wait_timeout_ns = static_cast<std::uint64_t>(options.deadline_s * 1e9);
     config.log = [seen = session.validation_messages.get()](SluiceLogLevel level, std::string_view message) {
         if (message.starts_with(kValidationPrefix)) {

@@ -35,6 +35,24 @@ TEST(ParseFault, RefusesWhatIsNoFault) {
     }
 }
 
+TEST(ParseFault, KnowsTheHostFaults) {
+    for (const auto& [name, kind] : host::kHostFaultNames) {
+        const std::string text = std::string(name) + "@5=7";
+        EXPECT_TRUE(cli::namesHostFault(text));
+        const auto fault = cli::parseHostFault(text);
+        ASSERT_TRUE(fault) << fault.error().message();
+        EXPECT_EQ(fault.value().kind, kind);
+        EXPECT_EQ(fault.value().frame, 5U);
+        EXPECT_EQ(fault.value().value, 7U);
+    }
+    EXPECT_FALSE(cli::namesHostFault("drop@5"));
+    for (const char* text :
+         {"", "hang", "hang@", "hang@0", "hang@1=", "hang@1=x", "hang=1@1", "drop@1", "hang/to-host@1"}) {
+        EXPECT_FALSE(cli::parseHostFault(text)) << text;
+    }
+    EXPECT_THAT(cli::parseFault("lose@5").error().message(), HasSubstr("device-lost"));
+}
+
 TEST(ParseDeadline, IsSecondsWithinReason) {
     EXPECT_EQ(cli::parseDeadline("0.5").value(), 0.5);
     for (const char* text : {"", "0", "-1", "nan", "inf", "3601", "1s"}) {
@@ -103,6 +121,18 @@ TEST_F(LedgerOption, ADroppedSignalCostsOneFrameItsFluidAndTheLogTellsWhoWaitsFo
     const auto frames = nlohmann::json::parse(outcome.out).at("frames");
     EXPECT_EQ(frames.at("written"), 5);
     EXPECT_EQ(frames.at("with_fluid"), 4);
+}
+
+TEST_F(LedgerOption, ALostDeviceCostsOneFrameItsFluidAndAnotherRendererGoesOn) {
+    const Outcome outcome = run("render s.json -o a_####.png --frames 1..4 --fault device-lost@2 --json");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, HasSubstr("renderer: here again after 1 frame without fluid"));
+    const auto frames = nlohmann::json::parse(outcome.out).at("frames");
+    EXPECT_EQ(frames.at("written"), 4);
+    EXPECT_EQ(frames.at("with_fluid"), 3);
+    const Outcome late = run("render s.json -o b.png --fault device-lost@9");
+    EXPECT_EQ(late.code, 0) << late.err;
+    EXPECT_THAT(late.err, HasSubstr("never came"));
 }
 
 TEST_F(LedgerOption, AFaultThatWouldHangOrNeverComesIsSaid) {

@@ -148,6 +148,7 @@ FluidHostConfig EchoTest::config() const {
     config.height = kEchoHeight;
     // Most of these tests are about what one renderer does; recovery_test is about the next.
     config.recovery.attempts = 0;
+    config.call_alarm_ns = 0;
     return config;
 }
 

@@ -74,7 +74,7 @@ TEST_F(FaultTest, AutoFailsWithTheLastReasonWhenNothingStarts) {
 
 TEST_F(FaultTest, AForcedKindDoesNotFallBack) {
     for (const SluiceTimelineKind kind : {SLUICE_TIMELINE_NATIVE, SLUICE_TIMELINE_BINARY}) {
-        *control_ = ShimControl{};
+        resetShim();
         control_->lies = bit(kind);
         FluidHostConfig wanted = config();
         wanted.timeline = kind;

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "gl_test.hpp"
-#include "ledger_rig.hpp"
+#include "recovery_rig.hpp"
 #include "sluice/abi_sizes.hpp"
 #include "sluice/host_gl/recovery.hpp"
 
@@ -59,50 +59,9 @@ TEST(RecoveryPolicy, CountsTriesFromTheBeginningOnlyWhenTheRendererHasSettled) {
     EXPECT_EQ(recovery.nextFrame(), Step::Try);
 }
 
-class RecoveryTest : public LedgerTest {
-  protected:
-    [[nodiscard]] FluidHostConfig recovering(SluiceTimelineKind timeline) {
-        FluidHostConfig wanted = config();
-        wanted.timeline = timeline;
-        wanted.recovery = RecoveryPolicy{};
-        return wanted;
-    }
-    void begin(const FluidHostConfig& wanted) {
-        ASSERT_NO_FATAL_FAILURE(makeHost(wanted));
-        ASSERT_NO_FATAL_FAILURE(makeScreen(kEchoWidth, kEchoHeight));
-    }
-    /// As frameIsClean; a frame without fluid must leave the screen as the host drew it.
-    bool frameHasFluid() {
-        const std::uint64_t stamp = ++drawn_;
-        drawStamp(*screen_, stamp, 1);
-        const std::vector<float> before = readColour(*screen_, nullptr).values;
-        Status status = host_->submit(*screen_, echoInput());
-        if (status) {
-            status = host_->composite(*screen_);
-        }
-        if (status) {
-            EXPECT_TRUE(inspect(*host_, stamp).clean()) << "frame " << stamp;
-        } else {
-            EXPECT_EQ(readColour(*screen_, nullptr).values, before) << "frame " << stamp;
-            failures_.push_back(status.error().message());
-        }
-        return status.ok();
-    }
-    /// 'f' for a frame with fluid, '-' for one without.
-    std::string run(int frames) {
-        std::string seen;
-        for (int i = 0; i < frames; ++i) {
-            seen += frameHasFluid() ? 'f' : '-';
-        }
-        return seen;
-    }
-
-    std::uint64_t drawn_ = 0;
-};
-
 TEST_F(RecoveryTest, ALostDeviceCostsItsFrameAndTheNextHasFluidAgain) {
     for (const SluiceTimelineKind timeline : {SLUICE_TIMELINE_BRIDGED, SLUICE_TIMELINE_FINISH}) {
-        *control_ = ShimControl{};
+        resetShim();
         drawn_ = 0;
         ASSERT_NO_FATAL_FAILURE(begin(recovering(timeline)));
         control_->lose_submit = 3;
@@ -140,7 +99,7 @@ TEST_F(RecoveryTest, ARendererThatKeepsFailingIsGivenUpAfterItsTriesAndSaidOnceE
                             AllOf(HasSubstr("try 2 of 2 failed, given up"), HasSubstr("the shim refuses"))));
     EXPECT_THAT(failures_.back(), HasSubstr("there is no renderer: renderer create: the shim refuses this timeline"));
     // A resize is a fresh start.
-    *control_ = ShimControl{};
+    resetShim();
     EXPECT_TRUE(host_->resize(kEchoWidth, kEchoHeight));
     EXPECT_EQ(run(2), "ff");
     complaints_.clear();

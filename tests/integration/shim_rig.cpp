@@ -3,6 +3,8 @@
 
 #include <dlfcn.h>
 
+#include <memory>
+
 namespace sluice::host::test {
 
 void ShimTest::SetUp() {
@@ -15,7 +17,12 @@ void ShimTest::SetUp() {
     control_ = static_cast<ShimControl*>(dlsym(handle, kShimControlSymbol));
     dlclose(handle);  // library_ still holds it
     ASSERT_NE(control_, nullptr);
-    *control_ = ShimControl{};
+    resetShim();
+}
+
+void ShimTest::resetShim() const {
+    std::destroy_at(control_);
+    std::construct_at(control_);
 }
 
 }  // namespace sluice::host::test

@@ -10,6 +10,8 @@ namespace sluice::host::test {
 class ShimTest : public EchoTest {
   protected:
     void SetUp() override;
+    /// The real renderer, unchanged.
+    void resetShim() const;
 
     ShimControl* control_ = nullptr;  ///< lives in the library, reset for each test
 };

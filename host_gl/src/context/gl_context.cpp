@@ -42,8 +42,19 @@ struct GlContext::Impl {
             return Error{SLUICE_ERROR_UNSUPPORTED, "eglBindAPI(EGL_OPENGL_API)", takeEglError(),
                          "this EGL library has no desktop OpenGL; install libegl-mesa0 and libgl1-mesa-dri"};
         }
-        const std::array<EGLint, 5> attributes{EGL_CONTEXT_MAJOR_VERSION, 2, EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE};
-        impl->context = eglCreateContext(impl->display->handle(), impl->display->config(), share, attributes.data());
+        // Told of a reset where the driver can tell (contextLoss()); a driver that cannot may refuse to be asked.
+        const std::array<EGLint, 7> told{EGL_CONTEXT_MAJOR_VERSION,
+                                         2,
+                                         EGL_CONTEXT_MINOR_VERSION,
+                                         1,
+                                         EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY,
+                                         EGL_LOSE_CONTEXT_ON_RESET,
+                                         EGL_NONE};
+        impl->context = eglCreateContext(impl->display->handle(), impl->display->config(), share, told.data());
+        if (impl->context == EGL_NO_CONTEXT) {
+            const std::array<EGLint, 5> plain{EGL_CONTEXT_MAJOR_VERSION, 2, EGL_CONTEXT_MINOR_VERSION, 1, EGL_NONE};
+            impl->context = eglCreateContext(impl->display->handle(), impl->display->config(), share, plain.data());
+        }
         if (impl->context == EGL_NO_CONTEXT) {
             return Error{SLUICE_ERROR_UNSUPPORTED, "eglCreateContext(OpenGL 2.1)", takeEglError(),
                          "install libgl1-mesa-dri or a driver with compatibility OpenGL 2.1 or newer"};

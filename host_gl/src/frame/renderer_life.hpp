@@ -7,7 +7,9 @@
 
 #include "compositor/composite.hpp"
 #include "compositor/gpu_timer.hpp"
+#include "frame/call_watch.hpp"
 #include "frame/connection.hpp"
+#include "frame/fault_injector.hpp"
 #include "sluice/host_gl/fluid_host.hpp"
 
 namespace sluice::host {
@@ -16,7 +18,9 @@ namespace sluice::host {
 /// needs the GL context of start() current, as does destruction.
 class RendererLife {
   public:
-    explicit RendererLife(const FluidHostConfig& config) : link_(config), timer_(config.trace) {}
+    /// Both must outlive the object.
+    RendererLife(const FluidHostConfig& config, CallWatch& watch, FaultInjector& faults)
+        : link_(config), watch_(watch), faults_(faults), timer_(config.trace) {}
     RendererLife(const RendererLife&) = delete;
     RendererLife& operator=(const RendererLife&) = delete;
     ~RendererLife();
@@ -36,6 +40,8 @@ class RendererLife {
     [[nodiscard]] std::uint64_t numbersSpent() const { return next_ - 1; }
     /// Why only another renderer can bring fluid again; empty while this one can.
     [[nodiscard]] const std::optional<Error>& fault() const { return fault_; }
+    /// The GL context is lost: nothing more is waited for.
+    void contextLost() { gl_lost_ = true; }
     /// What is logged goes where the renderer's own lines go.
     void log(SluiceLogLevel level, std::string_view text) { link_.services.log(level, text); }
 
@@ -54,10 +60,13 @@ class RendererLife {
     [[nodiscard]] Status checkScreen(const Screen& screen, const char* call) const;
     void capture(const Screen& screen, const SluiceCamera& camera, std::uint64_t frame);
     [[nodiscard]] Status handOver(const Screen& screen, const FrameInput& input);
+    [[nodiscard]] Status waitFor(std::uint64_t value, const std::vector<std::uint32_t>& textures);
     [[nodiscard]] Status callRenderer(const FrameInput& input, std::uint64_t frame);
     void draw(const Screen& screen, std::uint64_t frame);
 
     Connection link_;
+    CallWatch& watch_;
+    FaultInjector& faults_;
     GpuTimer timer_;
     Compositor compositor_;
     std::uint64_t next_ = 1;       ///< number of the next frame
@@ -65,7 +74,8 @@ class RendererLife {
     bool composable_ = false;      ///< that frame waits for its composite
     bool usable_ = false;          ///< false after a failed resize
     bool lost_ = false;            ///< the renderer has said that its device is lost
-    std::uint32_t strikes_ = 0;    ///< frames in a row without fluid for the renderer's sake
+    bool gl_lost_ = false;
+    std::uint32_t strikes_ = 0;  ///< frames in a row without fluid for the renderer's sake
     std::optional<Error> fault_;
 };
 

@@ -27,6 +27,17 @@ EGLConfig configOf(EGLDisplay display, EGLContext context) {
     return config;
 }
 
+/// Whether the current context was made to lose itself, and say so, when the GPU is reset.
+bool isToldOfResets() {
+    if (epoxy_gl_version() < 45 && !epoxy_has_gl_extension("GL_KHR_robustness") &&
+        !epoxy_has_gl_extension("GL_ARB_robustness")) {
+        return false;
+    }
+    GLint strategy = 0;
+    glGetIntegerv(GL_RESET_NOTIFICATION_STRATEGY, &strategy);
+    return strategy == GL_LOSE_CONTEXT_ON_RESET;
+}
+
 }  // namespace
 
 Result<BridgeContext> BridgeContext::createSharedWithCurrent() {
@@ -36,9 +47,12 @@ Result<BridgeContext> BridgeContext::createSharedWithCurrent() {
         return Error{SLUICE_ERROR_UNSUPPORTED, kThing, "no EGL context is current on this thread", kRemedy};
     }
     eglBindAPI(EGL_OPENGL_API);
-    // Fences and nothing else: the oldest version will do, and every driver can share with it.
-    const EGLint attributes[] = {EGL_NONE};
-    EGLContext context = eglCreateContext(display, configOf(display, current), current, attributes);
+    // Fences and nothing else: the oldest version will do, and every driver can share with it. But EGL shares only
+    // between contexts that are told of resets in the same way.
+    const EGLint plain[] = {EGL_NONE};
+    const EGLint told[] = {EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY, EGL_LOSE_CONTEXT_ON_RESET, EGL_NONE};
+    EGLContext context =
+        eglCreateContext(display, configOf(display, current), current, isToldOfResets() ? told : plain);
     if (context == EGL_NO_CONTEXT) {
         return Error{SLUICE_ERROR_UNSUPPORTED, kThing, "eglCreateContext for its thread failed: " + takeEglError(),
                      kRemedy};

@@ -81,6 +81,11 @@ SluiceResult submitFrame(SluiceRenderer* renderer, const SluiceFrame* frame, Slu
     if (frame->frame == sluice_shim_control.lose_submit) {
         return refuse(error, SLUICE_ERROR_DEVICE_LOST, "the shim has lost its device");
     }
+    if (frame->frame == sluice_shim_control.hang_frame) {
+        while (!sluice_shim_control.release) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        }
+    }
     if (frame->frame >= sluice_shim_control.fail_from && frame->frame <= sluice_shim_control.fail_to) {
         SluiceFrame changed = *frame;
         changed.outputs = UINT32_MAX;  // which the real renderer refuses

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 
 namespace sluice::host::test {
@@ -19,7 +20,9 @@ struct ShimControl {
     std::uint64_t stall_value = 0;                     ///< timeline_wait for this value does not see it ...
     std::uint64_t stall_ms = 0;                        ///< ... until so long after the first call
     std::uint64_t time_out_from = 0, time_out_to = 0;  ///< timeline_wait for these values says that time is up
-    std::uint32_t fail_resizes = 0;           ///< so many calls of resize fail in the middle: there are no images
+    std::uint32_t fail_resizes = 0;  ///< so many calls of resize fail in the middle: there are no images
+    std::uint64_t hang_frame = 0;    ///< submit_frame of this frame returns when `release` says so
+    std::atomic<bool> release{false};
     bool mute = false;                        ///< the renderer is not given the trace service
     bool drop_host_wait = false;              ///< timeline_wait returns at once
     std::uint32_t waits = 0;                  ///< calls of timeline_wait

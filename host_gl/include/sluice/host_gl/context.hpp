@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sluice/plugin.h"
@@ -38,6 +39,11 @@ class GlContext {
 
 /// What the current context can do, queried (formats by making a small texture and framebuffer of each).
 [[nodiscard]] SluiceHostCapabilities queryCapabilities();
+
+/// How the current context has been lost, where the driver tells and the context was made so that it does (as
+/// GlContext's are, where EGL can); else empty. From then on GL does nothing: make another context, and everything in
+/// it.
+[[nodiscard]] std::string_view contextLoss();
 
 /// One line per EGL device: its index (for SLUICE_GL_DEVICE), vendor, name and device file as far as the driver tells
 /// them, and its extensions in brackets. Empty where EGL cannot list devices. Needs no context.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "sluice/host_gl/fault_plan.hpp"
+#include "sluice/host_gl/host_fault.hpp"
 #include "sluice/host_gl/plugin_library.hpp"
 #include "sluice/host_gl/recovery.hpp"
 #include "sluice/host_gl/screen.hpp"
@@ -36,8 +37,12 @@ struct FluidHostConfig {
     /// Gets every step of the hand-off as it is taken (sluice/ledger/live.hpp), and the log the chain of waits when one
     /// passes its deadline. Must outlive the FluidHost, and is of no other; nullptr: off.
     ledger::LiveLedger* ledger = nullptr;
-    std::optional<FaultPlan> fault;  ///< for tests: one thing that goes wrong
+    std::optional<FaultPlan> fault;       ///< for tests: one thing that goes wrong
+    std::optional<HostFault> host_fault;  ///< likewise; over every renderer of the FluidHost
     RecoveryPolicy recovery;
+    /// A call into the renderer that has not come back by then is logged, once, by a thread of the host's own; a call
+    /// that may wait gets that time in addition. 0: there is no such thread.
+    std::uint64_t call_alarm_ns = 10'000'000'000ULL;
     std::function<void(SluiceLogLevel, std::string_view)> log;
 };
 
@@ -60,6 +65,9 @@ struct FrameInput {
 /// destroyed and created again by submit(), as FluidHostConfig::recovery says; that submit() takes as long as create()
 /// does. Until then submit() fails, at once, and the frames are the host's alone. The new renderer gets the particles
 /// and the environment that were set last, of which the FluidHost keeps a copy. What happens is logged, a line each.
+///
+/// A GL context that is lost (contextLoss()) ends the FluidHost: every call says so, and nothing more is asked of GL
+/// but to free its objects. Make a context, and a FluidHost in it.
 class FluidHost {
   public:
     [[nodiscard]] static Result<std::unique_ptr<FluidHost>> create(const PluginLibrary& library,

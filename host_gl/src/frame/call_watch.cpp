@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "frame/call_watch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <exception>
+#include <utility>
+
+#include "sluice/trace.hpp"
+
+namespace sluice::host {
+
+CallWatch::CallWatch(std::uint64_t patience_ns, Log log) : patience_ns_(patience_ns), log_(std::move(log)) {
+    if (patience_ns_ != 0) {
+        thread_ = std::thread([this] { run(); });
+    }
+}
+
+CallWatch::~CallWatch() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    wake_.notify_one();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+}
+
+CallWatch::Scope::Scope(CallWatch& watch, const char* call, std::uint64_t frame, std::uint64_t more_ns)
+    : watch_(watch) {
+    if (watch_.patience_ns_ == 0) {
+        return;
+    }
+    const std::lock_guard lock(watch_.mutex_);
+    watch_.call_ = call;
+    watch_.frame_ = frame;
+    watch_.begin_ns_ = monotonicNanoseconds();
+    watch_.late_ns_ = watch_.begin_ns_ + watch_.patience_ns_ + more_ns;
+}
+
+CallWatch::Scope::~Scope() {
+    const std::lock_guard lock(watch_.mutex_);
+    watch_.call_ = nullptr;
+}
+
+void CallWatch::run() {
+    // Looking now and then costs the calls no wake-up each; a call is told of half its patience late at most.
+    const std::chrono::nanoseconds interval(std::max<std::uint64_t>(patience_ns_ / 2, 1'000'000));
+    std::unique_lock lock(mutex_);
+    while (!wake_.wait_for(lock, interval, [this] { return stop_; })) {
+        const std::uint64_t now = monotonicNanoseconds();
+        if (call_ == nullptr || now < late_ns_) {
+            continue;
+        }
+        const char* call = std::exchange(call_, nullptr);
+        const std::uint64_t frame = frame_;
+        const double seconds = static_cast<double>(now - begin_ns_) * 1e-9;
+        lock.unlock();
+        try {
+            if (log_) {
+                log_(
+                    SLUICE_LOG_WARNING,
+                    fmt::format("watchdog: the renderer has not come back from {}{} for {:.1f} s, and the host's frame "
+                                "waits for it; nothing can end a call inside this process",
+                                call, frame != 0 ? fmt::format(" of frame {}", frame) : std::string(), seconds));
+            }
+        } catch (const std::exception&) {
+            // Without memory there is no line; the call is no later for it.
+        }
+        lock.lock();
+    }
+}
+
+}  // namespace sluice::host

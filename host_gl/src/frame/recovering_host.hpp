@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: MIT
+// FluidHost as a program has it: one renderer after the other.
+#pragma once
+
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <new>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "frame/call_watch.hpp"
+#include "frame/fault_injector.hpp"
+#include "frame/kept_scene.hpp"
+#include "frame/renderer_life.hpp"
+#include "sluice/host_gl/fluid_host.hpp"
+
+namespace sluice::host {
+
+// Marks what was thrown; short, as the details are, so that it needs no memory.
+inline constexpr const char* kThrown = "FluidHost";
+
+/// Body returns a Status.
+template <typename Body>
+[[nodiscard]] Status withoutThrowing(Body body) {
+    try {
+        return body();
+    } catch (const std::bad_alloc&) {
+        return Error{SLUICE_ERROR_OUT_OF_MEMORY, kThrown, "out of memory", ""};
+    } catch (const std::exception&) {
+        return Error{SLUICE_ERROR_INTERNAL, kThrown, "an exception", ""};
+    }
+}
+
+/// One renderer after the other, and the numbers and the scene that they share.
+class RecoveringHost final : public FluidHost {
+  public:
+    RecoveringHost(const PluginLibrary& library, FluidHostConfig config)
+        : library_(library),
+          config_(std::move(config)),
+          watch_(config_.call_alarm_ns, config_.log),
+          faults_(config_.host_fault),
+          recovery_(config_.recovery) {}
+    RecoveringHost(const RecoveringHost&) = delete;
+    RecoveringHost& operator=(const RecoveringHost&) = delete;
+    ~RecoveringHost() override;
+
+    [[nodiscard]] Status start() { return begin(); }
+
+    [[nodiscard]] const SluiceRendererInfo& info() const override { return info_; }
+    [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height) override {
+        return caught([&] { return replaceImages(width, height); });
+    }
+    [[nodiscard]] Status setParticles(const SluiceParticles& particles) override {
+        return caught([&] { return give([&] { return life_->setParticles(particles); }, particles); });
+    }
+    [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment) override {
+        return caught([&] { return give([&] { return life_->setEnvironment(environment); }, environment); });
+    }
+    [[nodiscard]] Status submit(const Screen& screen, const FrameInput& input) override {
+        return caught([&]() -> Status {
+            ++without_fluid_;
+            faults_.frameBegins();
+            if (Status status = checkContext(); !status) {
+                return status;
+            }
+            if (Status status = revive(); !status) {
+                return status;
+            }
+            Status status = life_->submit(screen, input);
+            submitted_ = status ? base_ + life_->frame() : submitted_;
+            return judged(std::move(status));
+        });
+    }
+    [[nodiscard]] Status composite(const Screen& screen) override {
+        return caught([&]() -> Status {
+            if (Status status = checkContext(); !status) {
+                return status;
+            }
+            if (recovery_.down()) {
+                return whileDown("composite");
+            }
+            Status status = life_->composite(screen);
+            if (status) {
+                without_fluid_ = 0;
+                recovery_.frameWithFluid();
+            }
+            return judged(std::move(status));
+        });
+    }
+    [[nodiscard]] std::uint64_t frame() const override { return submitted_; }
+    [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame) override;
+    [[nodiscard]] std::uint32_t texture(SluiceImageRole role) const override {
+        return life_ && !recovery_.down() ? life_->texture(role) : 0;
+    }
+    [[nodiscard]] std::uint32_t renderers() const override { return renderers_; }
+
+  private:
+    /// Without recovery the present renderer answers for itself, whatever has become of it.
+    [[nodiscard]] bool recovers() const { return config_.recovery.attempts > 0; }
+    template <typename Body>
+    [[nodiscard]] Status caught(Body body);
+    /// Fails for good once the GL context is lost, and says so once.
+    [[nodiscard]] Status checkContext();
+    [[nodiscard]] Status begin();
+    [[nodiscard]] Status beginWithScene();
+    [[nodiscard]] Status replaceImages(std::uint32_t width, std::uint32_t height);
+    template <typename Call, typename Value>
+    [[nodiscard]] Status give(Call call, const Value& value);
+    /// Success when there is a renderer to submit to, made now if it has to be.
+    [[nodiscard]] Status revive();
+    [[nodiscard]] Status tryAgain();
+    /// `status` again, after a look at what it has done to the renderer.
+    [[nodiscard]] Status judged(Status status);
+    void fault(const Error& cause);
+    [[nodiscard]] Error whileDown(const char* call) const;
+    void log(SluiceLogLevel level, const std::string& text);
+
+    const PluginLibrary& library_;
+    FluidHostConfig config_;
+    CallWatch watch_;
+    FaultInjector faults_;
+    Recovery recovery_;
+    KeptScene scene_;
+    SluiceRendererInfo info_{};  ///< of the present renderer, or else of the last
+    std::unique_ptr<RendererLife> life_;
+    std::uint64_t base_ = 0;  ///< numbers that earlier renderers have spent
+    std::uint64_t submitted_ = 0;
+    std::uint32_t renderers_ = 0;
+    std::uint64_t without_fluid_ = 0;  ///< submits since the last composite
+    std::uint64_t down_since_ns_ = 0;
+    std::string cause_;
+    std::string_view context_loss_;  ///< empty while there is a context
+};
+
+template <typename Call, typename Value>
+Status RecoveringHost::give(Call call, const Value& value) {
+    Status status = recovery_.down() ? Status{} : judged(call());
+    const bool refused = !status && status.error().code == SLUICE_ERROR_INVALID_ARGUMENT;
+    if (recovers() && !refused) {
+        scene_.keep(value);
+    }
+    return status;
+}
+
+/// What ran out in the middle of a frame may have left the hand-off half done, so that renderer is not asked again.
+template <typename Body>
+Status RecoveringHost::caught(Body body) {
+    Status status = withoutThrowing(body);
+    if (!status && status.error().thing == kThrown) {
+        const Status told = withoutThrowing([&]() -> Status {
+            fault(status.error());
+            return {};
+        });
+        if (!told && life_ && recovers()) {
+            recovery_.fault();  // all that is lost is its line in the log
+        }
+    }
+    return status;
+}
+
+}  // namespace sluice::host
