@@ -72,6 +72,11 @@ auto oneOf(const char* what, const std::array<std::pair<std::string_view, T>, N>
     };
 }
 
+/// A parser of a number without a sign, which CLI11 would wrap round.
+auto wholeNumber(const char* what) {
+    return [what](const std::string& text) { return parseWhole(what, text); };
+}
+
 /// What every command line can hold.
 struct Line {
     CLI::App app{"Sluice: Vulkan fluid in an OpenGL engine's frame."};
@@ -182,9 +187,12 @@ void addGenerate(Line& line) {
     c.footer(example);
     CLI::App& pool = *c.add_subcommand("pool", "A wavy pool and a ball of water that falls into it");
     pool.group("Commands");
-    pool.add_option("--particles", o.particles, fmt::format("about how many; {} if not given", o.particles))
+    pool.add_option_function<std::string>("--particles", into(o.particles, wholeNumber("--particles")),
+                                          fmt::format("about how many; {} if not given", o.particles))
         ->type_name("N");
-    pool.add_option("--seed", o.seed, fmt::format("seed of the jitter; {} if not given", o.seed))->type_name("N");
+    pool.add_option_function<std::string>("--seed", into(o.seed, wholeNumber("--seed")),
+                                          fmt::format("seed of the jitter; {} if not given", o.seed))
+        ->type_name("N");
     pool.add_option_function<std::string>("--frames", into(o.frames, parseFrameRange),
                                           "30 a second; frame 1 is time 0 and what is made\nif not given")
         ->type_name("A..B");
@@ -254,7 +262,11 @@ int parseAndRun(int argc, const char* const* argv) {
         line.app.parse(argc, argv);
     } catch (const CLI::ParseError& stop) {
         // --help and --version stop with success; everything else is a usage error whatever CLI11 numbers it.
-        return line.app.exit(stop) == 0 ? kExitOk : kExitUsage;
+        if (stop.get_exit_code() == 0) {
+            return line.app.exit(stop) == 0 ? kExitOk : kExitUsage;
+        }
+        (void)std::fputs(usageError(line.app, stop).c_str(), stderr);
+        return kExitUsage;
     }
     startLog(line.verbosity, line.render.quiet || line.generate.quiet || line.ledger.diagnose.quiet);
     return line.run();

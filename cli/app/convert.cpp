@@ -19,6 +19,10 @@ int convert(const ConvertOptions& options) {
         logError(status.error());
         return kExitUsage;
     }
+    if (const Status status = particles::checkEnding(options.output); !status) {
+        logError(status.error());
+        return kExitUsage;
+    }
     OutputFolders folders;
     if (const Status status = folders.prepare(options.output); !status) {
         logError(status.error());

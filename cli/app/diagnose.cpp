@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 
 #include "app/exit_codes.hpp"
@@ -45,6 +46,27 @@ PageRange pageRange(const DiagnoseOptions& options) {
             static_cast<std::uint32_t>(std::clamp<std::int64_t>(options.frames->last, 0, kMost))};
 }
 
+/// Frames that the log does not have are not shown as if nothing had happened in them.
+Status checkFrames(const DiagnoseOptions& options, const Diagnosis& diagnosis) {
+    const std::vector<ledger::FrameReport>& frames = diagnosis.report.frames;
+    const auto missing = [&](const char* option, const std::string& asked) {
+        const std::string has = frames.empty()
+                                    ? std::string("has no frames")
+                                    : fmt::format("has frames {} to {}", frames.front().frame, frames.back().frame);
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, option,
+                     fmt::format("{} {}, {} was asked for", options.log, has, asked),
+                     fmt::format("leave {} out, or name what is there", option)};
+    };
+    if (options.frame && std::ranges::find(frames, *options.frame, &ledger::FrameReport::frame) == frames.end()) {
+        return missing("--frame", std::to_string(*options.frame));
+    }
+    if (options.frames && (frames.empty() || options.frames->first < frames.front().frame ||
+                           options.frames->last > frames.back().frame)) {
+        return missing("--frames", fmt::format("{}..{}", options.frames->first, options.frames->last));
+    }
+    return {};
+}
+
 }  // namespace
 
 int diagnose(const DiagnoseOptions& options) {
@@ -59,6 +81,10 @@ int diagnose(const DiagnoseOptions& options) {
         return kExitBadInput;
     }
     const Diagnosis& diagnosis = read.value();
+    if (const Status status = checkFrames(options, diagnosis); !status) {
+        logError(status.error());
+        return kExitUsage;
+    }
     if (options.json) {
         fmt::print("{}\n", diagnosisJson(diagnosis).dump(2, ' ', false, nlohmann::json::error_handler_t::replace));
     } else if (!options.quiet) {

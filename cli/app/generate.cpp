@@ -25,6 +25,9 @@ double timeOf(std::int64_t frame) {
 }
 
 Status checkRequest(const GenerateOptions& options) {
+    if (Status status = particles::checkEnding(options.output); !status) {
+        return status;
+    }
     if (options.frames.first < 1) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "--frames", "expected frames from 1, found 0", "frame 1 is time 0"};
     }

@@ -44,6 +44,19 @@ class HelpFormatter : public CLI::Formatter {
     }
 };
 
+/// "sluice generate pool"
+std::string nameOf(const CLI::App& app) {
+    return app.get_parent() == nullptr ? "sluice" : nameOf(*app.get_parent()) + " " + app.get_name();
+}
+
+std::string unknownWord(const CLI::App& app, const std::string& word, const char* what,
+                        const std::vector<std::string>& names) {
+    const std::vector<std::string_view> views(names.begin(), names.end());
+    const std::string_view guess = scene::nearest(word, views);
+    return fmt::format("sluice: error: \"{}\" is no {}{} ({} --help lists them)\n", word, what,
+                       guess.empty() ? "" : fmt::format("; the nearest is \"{}\"", guess), nameOf(app));
+}
+
 }  // namespace
 
 std::shared_ptr<CLI::Formatter> helpFormatter() {
@@ -68,10 +81,35 @@ std::string unknownCommand(const CLI::App& app, const std::string& word) {
     for (const CLI::App* command : app.get_subcommands(named)) {
         names.push_back(command->get_name());
     }
-    const std::vector<std::string_view> views(names.begin(), names.end());
-    const std::string_view guess = scene::nearest(word, views);
-    return fmt::format("sluice: error: \"{}\" is no command; the nearest is \"{}\" ({} --help lists them)\n", word,
-                       guess, app.get_parent() == nullptr ? "sluice" : "sluice " + app.get_name());
+    return unknownWord(app, word, "command", names);
+}
+
+std::string usageError(const CLI::App& app, const CLI::ParseError& error) {
+    const CLI::App* command = &app;
+    while (!command->get_subcommands().empty()) {
+        command = command->get_subcommands().front();
+    }
+    // Before all else: an option that was misspelt is often one that is now missing.
+    for (const std::string& word : app.remaining(true)) {
+        if (word.size() > 1 && word.front() == '-') {
+            std::vector<std::string> names;
+            for (const CLI::Option* option : command->get_options()) {
+                for (const std::string& name : option->get_lnames()) {
+                    names.push_back("--" + name);
+                }
+            }
+            return unknownWord(*command, word.substr(0, word.find('=')), "option", names);
+        }
+    }
+    if (const std::vector<std::string> words = app.remaining(true); !words.empty()) {
+        return fmt::format("sluice: error: \"{}\" is one argument too many ({} --help lists them)\n", words.front(),
+                           nameOf(*command));
+    }
+    const std::string_view what = error.what();
+    // A value that is wrong has its remedy with it; what is missing has not.
+    const bool told = what.find("found") != std::string_view::npos;
+    return told ? fmt::format("sluice: error: {}\n", what)
+                : fmt::format("sluice: error: {} ({} --help)\n", what, nameOf(*command));
 }
 
 }  // namespace sluice::cli

@@ -17,4 +17,7 @@ namespace sluice::cli {
 /// One line about a word that is no command, with the nearest of `app`'s commands.
 [[nodiscard]] std::string unknownCommand(const CLI::App& app, const std::string& word);
 
+/// One line about a command line that CLI11 does not take, with the nearest option where one was misspelt.
+[[nodiscard]] std::string usageError(const CLI::App& app, const CLI::ParseError& error);
+
 }  // namespace sluice::cli

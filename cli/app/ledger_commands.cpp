@@ -9,7 +9,17 @@ void addLedgerCommands(CLI::App& app, LedgerCommands& commands, std::function<in
     DiagnoseOptions& o = commands.diagnose;
     CLI::App& c = *app.add_subcommand("diagnose", "Judge the order of events in a ledger log");
     c.add_option("LOG", o.log, "ledger log, as sluice_trace.h writes it")->required()->type_name("");
-    c.add_option("--frame", o.frame, "frame whose critical path is printed instead of\nthe longest")->type_name("N");
+    c.add_option_function<std::string>(
+         "--frame",
+         [&o](const std::string& text) {
+             const auto number = parseWhole("--frame", text);
+             if (!number || number.value() > 0xFFFFFFFF) {
+                 throw CLI::ValidationError(badValue("--frame", "the number of a frame", text).message());
+             }
+             o.frame = static_cast<std::uint32_t>(number.value());
+         },
+         "frame whose critical path is printed instead of\nthe longest")
+        ->type_name("N");
     c.add_flag("--all", o.all, "every finding, not three of each kind");
     auto* json = c.add_flag("--json", o.json, "everything as JSON on stdout (docs/diagnose.md)");
     c.add_flag("-q,--quiet", o.quiet, "print nothing but errors; not with --json")->excludes(json);

@@ -27,6 +27,16 @@ Error badValue(std::string_view what, std::string_view expected, std::string_vie
                  fmt::format("expected {}, found \"{}\"", expected, found), ""};
 }
 
+Result<std::uint64_t> parseWhole(std::string_view what, std::string_view text) {
+    std::uint64_t value = 0;
+    const char* end = text.data() + text.size();
+    const auto [stop, failure] = std::from_chars(text.data(), end, value);
+    if (failure != std::errc{} || stop != end) {
+        return badValue(what, "a whole number, 0 or more", text);
+    }
+    return value;
+}
+
 Result<scene::FrameRange> parseFrameRange(std::string_view text) {
     const std::size_t dots = text.find("..");
     const std::string_view left = text.substr(0, dots);

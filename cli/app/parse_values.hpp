@@ -18,6 +18,8 @@ namespace sluice::cli {
 [[nodiscard]] Result<scene::Size> parseSize(std::string_view text);
 /// 1 to SLUICE_MAX_IMAGE_SETS.
 [[nodiscard]] Result<std::uint32_t> parseImageSets(std::string_view text);
+/// Digits alone, up to 2^64-1; `what` names the option.
+[[nodiscard]] Result<std::uint64_t> parseWhole(std::string_view what, std::string_view text);
 /// Metres, above 0.
 [[nodiscard]] Result<float> parseRadius(std::string_view text);
 

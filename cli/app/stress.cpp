@@ -3,6 +3,7 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -61,6 +62,7 @@ int stress(const stress::Options& options) {
     }
     std::string log = options.log.empty() ? fmt::format("stress-{}.sluicelog", options.seed) : options.log;
     std::vector<stress::Row> rows;
+    std::map<std::string, std::size_t> refused;  ///< combinations by what forbids them here
     bool stuck = false;
     for (std::size_t i = 0; i < matrix.runs.size() && !interrupted() && !stuck; ++i) {
         const stress::Combination& one = matrix.runs[i];
@@ -68,10 +70,16 @@ int stress(const stress::Options& options) {
                                               [] { return interrupted(); }));
         const stress::Row& row = rows.back();
         stuck = row.stuck;
-        if (row.failure) {
+        if (row.refused_here) {
+            ++refused[row.failure.value_or("")];  // of all combinations alike: said once
+        } else if (row.failure) {
             fmt::print(stderr, "{}", failureText(row, options.seed));
         }
         log = row.log.empty() ? log : "";  // one log: of the first failure
+    }
+    for (const auto& [why, count] : refused) {
+        fmt::print(stderr, "sluice: error: stress: {}; {} of {} combinations cannot run here\n", why, count,
+                   matrix.runs.size());
     }
     if (options.json) {
         fmt::print("{}\n", stressJson(rows, matrix, options).dump(2));

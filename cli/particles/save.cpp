@@ -79,12 +79,20 @@ class TemporaryFile {
 
 }  // namespace
 
+Status checkEnding(const std::filesystem::path& path) {
+    if (!formatOf(path)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, path.string(), fmt::format("expected {}", kEndings),
+                     "choose one of these"};
+    }
+    return {};
+}
+
 Status save(const std::filesystem::path& path, const ParticleSet& set) {
+    if (Status status = checkEnding(path); !status) {
+        return status;
+    }
     const std::string name = path.string();
     const std::optional<Format> format = formatOf(path);
-    if (!format) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name, fmt::format("expected {}", kEndings), "choose one of these"};
-    }
     try {
         const Result<std::vector<std::byte>> bytes = encode(set, *format, name);
         if (!bytes) {

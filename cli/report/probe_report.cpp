@@ -48,6 +48,9 @@ std::vector<Ability> vkAbilities(const SluiceRendererCapabilities& vk) {
 
 std::string sides(const ProbeResult& probe) {
     const SluiceHostCapabilities& gl = probe.gl;
+    if (gl.renderer[0] == '\0') {
+        return "OpenGL    none: see the problem below\n";
+    }
     std::string text = fmt::format("OpenGL    {} / {} / {}\n", gl.vendor, gl.renderer, gl.version);
     for (std::uint32_t i = 0; i < std::min(gl.device_uuid_count, SLUICE_MAX_DEVICE_UUIDS); ++i) {
         text += fmt::format("          device UUID {}\n", uuidText(gl.device_uuids[i]));

@@ -20,7 +20,7 @@ double rate(const Row& row) {
 
 std::string verdict(const Row& row) {
     if (row.refused_here) {
-        return "not here";
+        return "not here";  // in the JSON
     }
     if (row.failure) {
         return "FAILED";
@@ -59,6 +59,10 @@ std::string stressText(const std::vector<Row>& rows, std::uint64_t seed) {
     std::uint64_t failures = 0;
     double seconds = 0.0;
     for (const Row& row : rows) {
+        failures += row.failure ? 1U : 0U;
+        if (row.refused_here) {
+            continue;  // it has no numbers; stderr says why
+        }
         const Combination& one = row.combination;
         std::vector<std::string> line{std::string(toString(one.pattern)),
                                       std::string(toString(one.backend)),
@@ -78,11 +82,11 @@ std::string stressText(const std::vector<Row>& rows, std::uint64_t seed) {
         line.push_back(verdict(row));
         table.push_back(std::move(line));
         handoffs += row.handoffs;
-        failures += row.failure ? 1U : 0U;
         seconds += row.seconds;
     }
-    return formatTable(table, right) + fmt::format("{} hand-offs in {:.1f} s, {} of {} combinations failed; seed {}\n",
-                                                   formatCount(handoffs), seconds, failures, rows.size(), seed);
+    return (table.size() > 1 ? formatTable(table, right) : std::string()) +
+           fmt::format("{} hand-offs in {:.1f} s, {} of {} combinations failed; seed {}\n", formatCount(handoffs),
+                       seconds, failures, rows.size(), seed);
 }
 
 nlohmann::ordered_json stressJson(const std::vector<Row>& rows, const stress::Matrix& matrix,
@@ -122,9 +126,6 @@ std::string failureText(const Row& row, std::uint64_t seed) {
     std::string text =
         fmt::format("sluice: error: stress {} {} {} {}: {}\n", toString(one.pattern), toString(one.backend),
                     toString(one.resource), toString(one.topology), row.failure.value_or(""));
-    if (row.refused_here) {
-        return text;
-    }
     for (const std::string& line : row.chain) {
         text += "  " + line + "\n";
     }

@@ -8,6 +8,9 @@
 namespace sluice::scene {
 namespace {
 
+/// Letters from which on a part is taken for the word.
+constexpr std::size_t kPart = 3;
+
 /// Levenshtein distance, one row at a time.
 std::size_t distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
@@ -27,9 +30,17 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::string_view nearest(std::string_view word, std::span<const std::string_view> known) {
-    return *std::min_element(known.begin(), known.end(), [word](std::string_view a, std::string_view b) {
+    const auto part = std::find_if(known.begin(), known.end(), [word](std::string_view one) {
+        return word.size() >= kPart && one.find(word) != std::string_view::npos;
+    });
+    if (part != known.end()) {
+        return *part;
+    }
+    const auto best = std::min_element(known.begin(), known.end(), [word](std::string_view a, std::string_view b) {
         return distance(a, word) < distance(b, word);
     });
+    const bool near = best != known.end() && distance(*best, word) <= std::max<std::size_t>(1, word.size() / 3);
+    return near ? *best : std::string_view{};
 }
 
 }  // namespace sluice::scene

@@ -174,9 +174,10 @@ void ObjectReader::finish() {
         if (std::find(known_.begin(), known_.end(), key) != known_.end()) {
             continue;
         }
+        const std::string_view guess = nearest(key, known_);
         failure_ = Error{SLUICE_ERROR_INVALID_ARGUMENT, name_,
-                         fmt::format("{}: unknown key with value {}; the nearest known key is \"{}\"",
-                                     at(shownKey(key)), shown(value), nearest(key, known_)),
+                         fmt::format("{}: unknown key with value {}{}", at(shownKey(key)), shown(value),
+                                     guess.empty() ? "" : fmt::format("; the nearest known key is \"{}\"", guess)),
                          fmt::format("known keys here: {}", fmt::join(known_, ", "))};
     }
 }

@@ -37,7 +37,7 @@ constexpr BadScene kBadScenes[] = {
     {"UnknownFluid", R"({"fluid": {"absorbtion": [1,2,3]}})",
      R"(/fluid/absorbtion: unknown key with value [1,2,3]; the nearest known key is "absorption")"},
     {"UnknownCamera", R"({"camera": {"fov": 40}})",
-     R"(/camera/fov: unknown key with value 40; the nearest known key is "far")"},
+     R"(/camera/fov: unknown key with value 40; the nearest known key is "vertical_fov_degrees")"},
     {"UnknownTransform", R"({"particles": {"transform": {"scales": 2}}})",
      R"(/particles/transform/scales: unknown key with value 2; the nearest known key is "scale")"},
     {"ParticlesString", R"({"particles": "p.pos"})", R"(/particles: expected an object, found "p.pos")"},

@@ -76,7 +76,33 @@ TEST_F(FirstSteps, AMistypedCommandIsOneLineWithTheWordAndTheNearestCommand) {
     };
     answers("rendr s.json -o a.png", "\"rendr\"", "\"render\"", "(sluice --help");
     answers("explian", "\"explian\"", "\"explain\"", "(sluice --help");
+    answers("diag a.log", "\"diag\"", "\"diagnose\"", "(sluice --help");
+    answers("foo", "\"foo\" is no command (", "", "(sluice --help");
+    answers("generate pool --bogus 1 --seed 2 -o p.pos", "\"--bogus\" is no option (", "",
+            "(sluice generate pool --help");
+    answers("render s.json --ouptut a.png", "\"--ouptut\"", "\"--output\"", "(sluice render --help");
+    answers("render s.json", "--output is required", "", "(sluice render --help");
+    answers("convert a.pos b.pos c.pos d.pos", "\"c.pos\" is one argument too many", "", "(sluice convert --help");
     answers("generate pol -o p.pos", "\"pol\"", "\"pool\"", "(sluice generate --help");
+}
+
+TEST_F(FirstSteps, ANumberWithASignIsNotWrappedRound) {
+    for (const char* words : {"generate pool --particles -5 -o p.pos", "generate pool --seed -1 -o p.pos",
+                              "generate pool --particles 1e6 -o p.pos"}) {
+        const Outcome outcome = run(words);
+        EXPECT_EQ(outcome.code, 1) << words;
+        EXPECT_THAT(outcome.err, HasSubstr(": expected a whole number, 0 or more, found \"")) << words;
+    }
+}
+
+TEST_F(FirstSteps, AnEndingThatNobodyKnowsIsAWrongCommandLine) {
+    write("p.pos", "");
+    for (const char* words : {"generate pool -o p.xyz", "generate pool -o sub/p.xyz", "convert p.pos p.xyz"}) {
+        const Outcome outcome = run(words);
+        EXPECT_EQ(outcome.code, 1) << words;
+        EXPECT_THAT(outcome.err, HasSubstr("p.xyz: expected the ending .pos, .ply")) << words;
+    }
+    EXPECT_THAT(files(), testing::ElementsAre("p.pos"));
 }
 
 TEST_F(FirstSteps, AWrongValueIsAnsweredWithTheRightOnes) {
@@ -86,13 +112,15 @@ TEST_F(FirstSteps, AWrongValueIsAnsweredWithTheRightOnes) {
         return linesOf(outcome.err).front();
     };
     EXPECT_EQ(answer("render s.json -o a.png --timeline fast"),
-              "--timeline: expected one of auto, native, binary, bridged, finish, found \"fast\"");
+              "sluice: error: --timeline: expected one of auto, native, binary, bridged, finish, found \"fast\"");
     EXPECT_EQ(answer("render s.json -o a.png --depth-format 12"),
-              "--depth-format: expected one of auto, D32F, R32F, found \"12\"");
+              "sluice: error: --depth-format: expected one of auto, D32F, R32F, found \"12\"");
     EXPECT_EQ(answer("render s.json -o a.png --view Depth"),
-              "--view: expected one of fluid, depth, normal, thickness, found \"Depth\"");
-    EXPECT_EQ(answer("render s.json -o a.png --image-sets 5"), "--image-sets: expected 1 to 4, found \"5\"");
-    EXPECT_EQ(answer("convert a.ply a.pos --radius 0"), "--radius: expected metres above 0, found \"0\"");
+              "sluice: error: --view: expected one of fluid, depth, normal, thickness, found \"Depth\"");
+    EXPECT_EQ(answer("render s.json -o a.png --image-sets 5"),
+              "sluice: error: --image-sets: expected 1 to 4, found \"5\"");
+    EXPECT_EQ(answer("convert a.ply a.pos --radius 0"),
+              "sluice: error: --radius: expected metres above 0, found \"0\"");
 }
 
 TEST_F(FirstSteps, ASceneWithoutParticlesSaysWhereTheyAreNamedAndHowTheyAreMade) {

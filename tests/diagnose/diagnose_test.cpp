@@ -81,6 +81,23 @@ TEST_F(Diagnose, WrongCommandLinesAreOneWithNothingOnStdout) {
     EXPECT_THAT(files(), ElementsAre("a.log"));
 }
 
+TEST_F(Diagnose, FramesBeyondTheLogAreOneAndSaidWithWhatItHas) {
+    log("a.log", Seeded::Nothing);
+    EXPECT_EQ(run("diagnose a.log --frame 4").code, 0);
+    EXPECT_EQ(run("diagnose a.log --frames 2..4 --html page.html").code, 0);
+    for (const auto& [words, asked] : {std::pair{"--frame 5", "5 was asked for"},
+                                       {"--frame 0", "0 was asked for"},
+                                       {"--frames 3..9 --html b.html", "3..9 was asked for"},
+                                       {"--frames 50 --json", "50..50 was asked for"}}) {
+        const Outcome outcome = run(std::string("diagnose a.log ") + words);
+        EXPECT_EQ(outcome.code, 1) << words;
+        EXPECT_EQ(outcome.out, "") << words;
+        EXPECT_THAT(outcome.err, AllOf(HasSubstr("a.log has frames 1 to 4"), HasSubstr(asked)));
+    }
+    EXPECT_THAT(files(), ElementsAre("a.log", "page.html"));
+    EXPECT_EQ(run("diagnose a.log --frame -1").code, 1);
+}
+
 TEST_F(Diagnose, OutputsThatCannotBeWrittenAreFour) {
     log("a.log", Seeded::Nothing);
     const Outcome outcome = run("diagnose a.log --html /proc/no/page.html");

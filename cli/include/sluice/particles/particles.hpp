@@ -44,6 +44,9 @@ inline constexpr std::uint64_t kMaxFileBytes = 1ULL << 34;
 [[nodiscard]] Result<ParticleSet> load(const std::filesystem::path& path, float default_radius = 0.0F,
                                        std::string_view radius_remedy = "give the radius in metres");
 
+/// Whether save() knows what the file's ending stands for; an error that lists the endings if not.
+[[nodiscard]] Status checkEnding(const std::filesystem::path& path);
+
 /// Writes .pos, .ply (binary little-endian) or .bgeo by ending, whole or not at all.
 [[nodiscard]] Status save(const std::filesystem::path& path, const ParticleSet& set);
 
