@@ -9,6 +9,7 @@
 #include "bytes.hpp"
 #include "encode.hpp"
 #include "gzip.hpp"
+#include "isolate_samples.hpp"
 #include "ledger_seeds.hpp"
 #include "sluice/particles/generate.hpp"
 
@@ -117,6 +118,11 @@ int main(int argc, char** argv) {
     put("bgeo/many-kinds", bgeoOfManyKinds());
     put("bgeo/json", text("\x7fNSJb"));
     ok = sluice::fuzz::writeLedgerSeeds(folder / "ledger_log") && ok;
+    for (const sluice::isolate::Message& message : sluice::isolate::test::sampleMessages()) {
+        const std::string name(sluice::isolate::nameOf(message));
+        put(("isolate/" + name).c_str(),
+            sluice::isolate::encode(message, 1, sluice::isolate::test::descriptorsOf(message)));
+    }
     if (!ok) {
         std::fprintf(stderr, "make_corpus: cannot write into %s\n", folder.c_str());
         return 1;

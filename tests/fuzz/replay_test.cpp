@@ -60,7 +60,7 @@ TEST(ReplayCorpus, HoldsSeedsForEveryTarget) {
     for (const Path& path : corpus()) {
         ++seeds[path.parent_path().filename().string()];
     }
-    for (const char* target : {"pos", "ply", "bgeo", "scene", "ledger_log"}) {
+    for (const char* target : {"pos", "ply", "bgeo", "scene", "ledger_log", "isolate"}) {
         EXPECT_GE(seeds[target], 5) << target;
     }
 }

@@ -115,8 +115,12 @@ void scene(std::span<const std::byte> bytes) {
 }
 
 Target targetNamed(std::string_view name) {
-    constexpr std::array<std::pair<std::string_view, Target>, 5> kTargets{
-        {{"pos", pos}, {"ply", ply}, {"bgeo", bgeo}, {"scene", scene}, {"ledger_log", ledger_log}}};
+    constexpr std::array<std::pair<std::string_view, Target>, 6> kTargets{{{"pos", pos},
+                                                                           {"ply", ply},
+                                                                           {"bgeo", bgeo},
+                                                                           {"scene", scene},
+                                                                           {"ledger_log", ledger_log},
+                                                                           {"isolate", isolate}}};
     const auto* found = std::ranges::find(kTargets, name, &std::pair<std::string_view, Target>::first);
     return found == kTargets.end() ? nullptr : found->second;
 }

@@ -17,6 +17,9 @@ void scene(std::span<const std::byte> bytes);
 /// Reads a log, judges it with the ledger, and computes and draws nothing that it could not hold.
 void ledger_log(std::span<const std::byte> bytes);
 
+/// A message between the processes of an isolated renderer.
+void isolate(std::span<const std::byte> bytes);
+
 /// Does what a target does when a promise is broken; for the test of the replay itself.
 [[noreturn]] void breakPromise();
 

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: MIT
+// The renderer's end of the channel, driven by a host that keeps to nothing.
+#include <fcntl.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cstring>
+#include <thread>
+
+#include "sluice/abi_sizes.hpp"
+#include "sluice/isolate/channel.hpp"
+#include "sluice/isolate/sealed_memory.hpp"
+#include "sluice/isolate/server.hpp"
+#include "sluice/isolate/shared_timeline.hpp"
+
+namespace sluice::isolate {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr std::uint64_t kLongNs = 60'000'000'000;
+
+/// A renderer without a device: it notes what it is called with. One at a time.
+struct FakeRenderer {
+    SluiceHostServices services{};
+    std::atomic<std::uint64_t> host_value{0}, own_value{0};
+    std::uint64_t signals = 0;
+    float last_colour = 0;
+    int destroyed = 0;
+};
+FakeRenderer fake;
+
+SluiceRendererApi fakeApi() {
+    auto api = sized<SluiceRendererApi>();
+    api.abi_version = SLUICE_ABI_VERSION;
+    api.name = "fake";
+    api.version = "7";
+    api.create = [](const SluiceHostServices* host, const SluiceCreateInfo* /*info*/, SluiceRenderer** renderer,
+                    SluiceError* error) {
+        fake.services = *host;
+        *renderer = reinterpret_cast<SluiceRenderer*>(&fake);
+        auto image = sized<SluiceImageExport>();
+        image.role = SLUICE_IMAGE_FLUID_COLOUR;
+        image.fd = ::open("/dev/null", O_RDONLY | O_CLOEXEC);
+        const SluiceResult result = host->share_image(host->user, &image, error);
+        if (result != SLUICE_OK) {
+            ::close(image.fd);
+        }
+        return result;
+    };
+    api.info = [](SluiceRenderer* /*renderer*/, SluiceRendererInfo* info) {
+        info->timeline = SLUICE_TIMELINE_BRIDGED;
+        return SLUICE_OK;
+    };
+    api.set_particles = [](SluiceRenderer* /*renderer*/, const SluiceParticles* particles, SluiceError* /*error*/) {
+        fake.last_colour = particles->colour != nullptr ? particles->colour[3 * particles->count - 1] : -1.0F;
+        return SLUICE_OK;
+    };
+    api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame, SluiceError* /*error*/) {
+        fake.own_value = frame->signal_value;
+        return SLUICE_OK;
+    };
+    api.timeline_signal = [](SluiceRenderer* /*renderer*/, std::uint64_t value) {
+        fake.signals += 1;
+        fake.host_value = value;
+        return SLUICE_OK;
+    };
+    api.timeline_wait = [](SluiceRenderer* /*renderer*/, std::uint64_t value, std::uint64_t /*timeout_ns*/) {
+        return fake.own_value >= value ? SLUICE_OK : SLUICE_TIMEOUT;
+    };
+    api.timeline_value = [](SluiceRenderer* /*renderer*/, std::uint32_t /*direction*/, std::uint64_t* value) {
+        *value = fake.own_value;
+        return SLUICE_OK;
+    };
+    api.destroy = [](SluiceRenderer* renderer) { fake.destroyed += renderer != nullptr ? 1 : 0; };
+    return api;
+}
+
+class IsolateServer : public ::testing::Test {
+  protected:
+    void SetUp() override {
+        fake.host_value = fake.own_value = 0;
+        fake.signals = 0;
+        fake.destroyed = 0;
+        auto ends = Channel::pair();
+        ASSERT_TRUE(ends);
+        host_ = std::move(ends.value().first);
+        renderer_ = std::move(ends.value().second);
+        timeline_ = SharedTimeline::create().value();
+        server_ = std::thread([this] { served_ = serve(api_, renderer_); });
+    }
+    void TearDown() override { (void)end(); }
+    Status end() {
+        host_ = Channel();
+        if (server_.joinable()) {
+            server_.join();
+        }
+        return served_;
+    }
+    void send(const Message& message, std::initializer_list<int> fds = {}) {
+        ASSERT_TRUE(host_.send(message, 3, {fds.begin(), fds.size()}, kLongNs));
+    }
+    Returned returned() {
+        Result<Received> received = host_.receive(kLongNs);
+        EXPECT_TRUE(received) << received.error().message();
+        const auto* answer = received ? std::get_if<Returned>(&received.value().message) : nullptr;
+        EXPECT_NE(answer, nullptr);
+        return answer != nullptr ? *answer : Returned{};
+    }
+    void greet() {
+        send(Hello{}, {timeline_->fd()});
+        const Result<Received> received = host_.receive(kLongNs);
+        ASSERT_TRUE(received);
+        EXPECT_EQ(std::get<Welcome>(received.value().message).name, "fake");
+    }
+    void createRenderer(const Answer& answer) {
+        send(Create{});
+        const Result<Received> asked = host_.receive(kLongNs);
+        ASSERT_TRUE(asked && std::holds_alternative<ShareImage>(asked.value().message));
+        EXPECT_EQ(asked.value().fds.size(), 1U);
+        send(answer);
+    }
+
+    SluiceRendererApi api_ = fakeApi();
+    Channel host_, renderer_;
+    std::unique_ptr<SharedTimeline> timeline_;
+    std::thread server_;
+    Status served_;
+};
+
+TEST_F(IsolateServer, CarriesCallsCallbacksMemoryAndCounters) {
+    greet();
+    createRenderer(Answer{});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    const std::array<float, 6> two{1, 2, 3, 4, 5, 6};
+    const auto bytes = std::as_bytes(std::span(two));
+    const UniqueFd memory = sealedCopy({bytes, bytes}).value();
+    send(SetParticles{{}, 2, 0.1F, 0, 1}, {memory.get()});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.last_colour, 6.0F);
+
+    ASSERT_TRUE(timeline_->publish(SLUICE_HOST_TO_RENDERER, 1));
+    SubmitFrame frame;
+    frame.frame.frame = frame.frame.wait_value = frame.frame.signal_value = 1;
+    send(frame);
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(timeline_->wait(SLUICE_RENDERER_TO_HOST, 1, kLongNs), WaitEnd::Reached);
+    ASSERT_TRUE(timeline_->publish(SLUICE_HOST_TO_RENDERER, 4));
+    send(Destroy{});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.host_value, 4U);
+    EXPECT_EQ(fake.signals, 4U) << "value by value";
+    EXPECT_TRUE(end());
+    EXPECT_EQ(fake.destroyed, 1);
+}
+
+TEST_F(IsolateServer, ARefusedImageIsTheRenderersFailure) {
+    greet();
+    createRenderer(Answer{{}, SLUICE_ERROR_IMPORT, "no room"});
+    const Returned failed = returned();
+    EXPECT_EQ(failed.result, SLUICE_ERROR_IMPORT);
+    EXPECT_EQ(failed.message, "no room");
+}
+
+TEST_F(IsolateServer, ParticlesInLooseOrShortMemoryAreRefusedAndTheNextCallIsServed) {
+    greet();
+    createRenderer(Answer{});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    const UniqueFd loose(::memfd_create("loose", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    ASSERT_EQ(::ftruncate(loose.get(), 24), 0);
+    send(SetParticles{{}, 2, 0.1F, 0, 0}, {loose.get()});
+    EXPECT_EQ(returned().result, SLUICE_ERROR_INVALID_ARGUMENT);
+    const std::array<float, 3> one{};
+    const UniqueFd little = sealedCopy({std::as_bytes(std::span(one))}).value();
+    send(SetParticles{{}, 0x4000'0000, 0.1F, 1, 1}, {little.get()});
+    EXPECT_THAT(returned().message, HasSubstr("found 12"));
+    send(SetEnvironment{{}, 0xFFFF'FFFF, 0xFFFF'FFFF}, {little.get()});
+    EXPECT_EQ(returned().result, SLUICE_ERROR_INVALID_ARGUMENT);
+    send(Info{});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_TRUE(end());
+    EXPECT_EQ(fake.destroyed, 1) << "a host that vanishes leaves no renderer behind";
+}
+
+TEST_F(IsolateServer, AHostThatLeapsIsTold) {
+    greet();
+    createRenderer(Answer{});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    ASSERT_TRUE(timeline_->publish(SLUICE_HOST_TO_RENDERER, 1ULL << 40U));
+    EXPECT_EQ(timeline_->wait(SLUICE_RENDERER_TO_HOST, 1, kLongNs), WaitEnd::Failed);
+    EXPECT_EQ(timeline_->failure(), SLUICE_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(IsolateServer, AnythingBeforeHelloEndsTheService) {
+    send(Info{});
+    server_.join();
+    EXPECT_THAT(served_.error().message(), HasSubstr("its first message is no hello"));
+}
+
+TEST_F(IsolateServer, WhatIsNoCallEndsTheService) {
+    greet();
+    send(Line{{}, "x"});
+    server_.join();
+    EXPECT_THAT(served_.error().message(), HasSubstr("it sent a line where a call was expected"));
+}
+
+TEST_F(IsolateServer, AnotherMessageInPlaceOfAnAnswerEndsTheService) {
+    greet();
+    send(Create{});
+    ASSERT_TRUE(host_.receive(kLongNs));
+    send(Info{});
+    server_.join();
+    EXPECT_THAT(served_.error().message(), HasSubstr("it did not answer a share_image"));
+}
+
+TEST_F(IsolateServer, MemoryThatIsNoTimelineEndsTheService) {
+    const UniqueFd null(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+    send(Hello{}, {null.get()});
+    server_.join();
+    EXPECT_THAT(served_.error().message(), HasSubstr("shared memory: expected"));
+}
+
+}  // namespace
+}  // namespace sluice::isolate
