@@ -131,7 +131,8 @@ void addRender(Line& line) {
     c.add_option_function<std::string>("--view", into(o.view, oneOf("--view", kViewNames)),
                                        "what to show: fluid, depth, normal or\nthickness")
         ->type_name("VIEW");
-    c.add_flag("--no-fluid", o.no_fluid, "the host's frame alone");
+    auto* no_fluid = c.add_flag("--no-fluid", o.no_fluid, "the host's frame alone");
+    c.add_flag("--isolate", o.isolate, "run the renderer in a process of its own")->excludes(no_fluid);
     c.add_flag("--validation", o.validation, "run under the Vulkan validation layer; exit\ncode 3 if it speaks");
     c.add_flag("--ledger", o.ledger,
                "check the order of every signal, wait and access\nwhile it happens, and report findings");

@@ -28,6 +28,7 @@ struct RenderOptions {
     std::string ledger_log;  ///< implies ledger
     std::optional<host::FaultPlan> fault;
     std::optional<host::HostFault> host_fault;
+    bool isolate = false;
     double deadline_s = 10.0;  ///< of a CPU wait for the renderer
 };
 

@@ -27,17 +27,27 @@ std::vector<std::filesystem::path> pluginPlaces(const std::string& option) {
                             std::filesystem::read_symlink("/proc/self/exe", ignored));
 }
 
-Result<host::PluginLibrary> loadPlugin(const std::string& option) {
+std::filesystem::path rendererProgram() {
+    std::error_code ignored;
+    return std::filesystem::read_symlink("/proc/self/exe", ignored).parent_path() / kRendererProgram;
+}
+
+Result<std::filesystem::path> findPlugin(const std::string& option) {
     std::error_code ignored;
     std::string looked;
     for (const std::filesystem::path& candidate : pluginPlaces(option)) {
         if (std::filesystem::exists(candidate, ignored)) {
-            return host::PluginLibrary::load(candidate);
+            return candidate;
         }
         looked += (looked.empty() ? "" : " and ") + candidate.string();
     }
     return Error{SLUICE_ERROR_UNSUPPORTED, "renderer plugin", fmt::format("not found at {}", looked),
                  fmt::format("give its path with --plugin or {}", kPluginVariable)};
+}
+
+Result<host::PluginLibrary> loadPlugin(const std::string& option) {
+    const Result<std::filesystem::path> path = findPlugin(option);
+    return path ? host::PluginLibrary::load(path.value()) : Result<host::PluginLibrary>{path.error()};
 }
 
 }  // namespace sluice::cli

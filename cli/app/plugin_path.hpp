@@ -12,6 +12,7 @@
 namespace sluice::cli {
 
 inline constexpr const char* kPluginFile = "libsluice_renderer_vk.so";
+inline constexpr const char* kRendererProgram = "sluice-renderer";
 inline constexpr const char* kPluginVariable = "SLUICE_PLUGIN";
 
 /// Pure. Places in order: what was asked for on the command line, alone; else the environment variable's value, alone;
@@ -22,6 +23,12 @@ inline constexpr const char* kPluginVariable = "SLUICE_PLUGIN";
 
 /// pluginCandidates of this process.
 [[nodiscard]] std::vector<std::filesystem::path> pluginPlaces(const std::string& option);
+
+/// The process of an isolated renderer stands beside this program.
+[[nodiscard]] std::filesystem::path rendererProgram();
+
+/// The first candidate that exists. The error names every place that was looked at.
+[[nodiscard]] Result<std::filesystem::path> findPlugin(const std::string& option);
 
 /// Loads the first candidate that exists. The error names every place that was looked at.
 [[nodiscard]] Result<host::PluginLibrary> loadPlugin(const std::string& option);

@@ -247,7 +247,8 @@ int finish(Run& run, int code) {
 
 int renderChecked(const RenderOptions& options, RenderInputs inputs) {
     // With auto the timeline is known once the renderer is, and FluidHost asks the same.
-    if (const Status status = options.fault ? host::checkFault(*options.fault, options.timeline) : Status{}; !status) {
+    const bool checked_here = options.fault && !(options.isolate && host::ofProcess(options.fault->kind));
+    if (const Status status = checked_here ? host::checkFault(*options.fault, options.timeline) : Status{}; !status) {
         logError(status.error());
         return kExitUsage;
     }

@@ -50,6 +50,22 @@ std::string reasonFor(SluiceTimelineKind kind, const SluiceRendererInfo& info, c
     return text.empty() ? std::string(toString(kind)) : text;
 }
 
+bool ofProcess(const std::optional<host::FaultPlan>& fault) {
+    return fault && host::ofProcess(fault->kind);
+}
+
+Result<host::PluginLibrary> isolatePlugin(const RenderOptions& options) {
+    Result<std::filesystem::path> path = findPlugin(options.plugin);
+    if (!path) {
+        return path.error();
+    }
+    host::IsolationConfig config;
+    config.program = rendererProgram();
+    config.plugin = std::move(path).value();
+    config.fault = ofProcess(options.fault) ? options.fault : std::nullopt;
+    return host::PluginLibrary::isolated(config);
+}
+
 /// Reads the images of the set that the last frame used.
 void readFluid(FrameLayers& layers, const RenderSession& session, const RenderInputs& inputs) {
     const auto read = [&](SluiceImageRole role) -> std::optional<host::Pixels> {
@@ -122,7 +138,7 @@ Status startLedger(RenderSession& session, const RenderOptions& options) {
 }
 
 Status startFluid(RenderSession& session, const RenderInputs& inputs, const RenderOptions& options) {
-    Result<host::PluginLibrary> library = loadPlugin(options.plugin);
+    Result<host::PluginLibrary> library = options.isolate ? isolatePlugin(options) : loadPlugin(options.plugin);
     if (!library) {
         return library.error();
     }
@@ -137,7 +153,7 @@ Status startFluid(RenderSession& session, const RenderInputs& inputs, const Rend
     config.validation = options.validation;
     config.trace = session.trace.get();
     config.ledger = session.ledger.get();
-    config.fault = options.fault;
+    config.fault = options.isolate && ofProcess(options.fault) ? std::nullopt : options.fault;
     config.host_fault = options.host_fault;
     config.call_alarm_ns = static_cast<std::uint64_t>(options.deadline_s * 1e9);
     config.wait_timeout_ns = static_cast<std::uint64_t>(options.deadline_s * 1e9);

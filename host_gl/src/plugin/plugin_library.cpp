@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "isolate/isolation.hpp"
 #include "sluice/abi_sizes.hpp"
 
 namespace sluice::host {
@@ -121,11 +122,27 @@ Result<PluginLibrary> PluginLibrary::load(const std::filesystem::path& path) {
     return library;
 }
 
+Result<PluginLibrary> PluginLibrary::isolated(const IsolationConfig& config) {
+    Result<std::shared_ptr<Isolation>> isolation = Isolation::start(config);
+    if (!isolation) {
+        return isolation.error();
+    }
+    PluginLibrary library;
+    library.isolation_ = std::move(isolation).value();
+    library.api_ = std::make_unique<const SluiceRendererApi>(library.isolation_->table());
+    library.path_ = config.plugin;
+    return library;
+}
+
 PluginLibrary::PluginLibrary(PluginLibrary&& other) noexcept
-    : handle_(std::exchange(other.handle_, nullptr)), api_(std::move(other.api_)), path_(std::move(other.path_)) {}
+    : handle_(std::exchange(other.handle_, nullptr)),
+      isolation_(std::move(other.isolation_)),
+      api_(std::move(other.api_)),
+      path_(std::move(other.path_)) {}
 
 PluginLibrary& PluginLibrary::operator=(PluginLibrary&& other) noexcept {
     std::swap(handle_, other.handle_);
+    std::swap(isolation_, other.isolation_);
     std::swap(api_, other.api_);
     std::swap(path_, other.path_);
     return *this;

@@ -109,6 +109,8 @@ class FaultyTimeline final : public HostTimeline {
                              fmt::format("the composite of frame {} is left out", plan_.frame), ""};
             case FaultKind::Duplicate:
             case FaultKind::Swap:
+            case FaultKind::KillRenderer:
+            case FaultKind::CrashRenderer:
                 break;
         }
         return inner_->wait(value, left, textures);
@@ -148,6 +150,8 @@ class FaultyTimeline final : public HostTimeline {
                 return inner_->signal(plan_.value != 0 ? plan_.value : gbufferWritten(plan_.frame + 1), textures);
             case FaultKind::SkipWait:  // the renderer's: FluidHost asks it to
             case FaultKind::EarlyReuse:
+            case FaultKind::KillRenderer:
+            case FaultKind::CrashRenderer:
                 break;
         }
         return inner_->signal(value, textures);
@@ -173,6 +177,10 @@ class FaultyTimeline final : public HostTimeline {
 }  // namespace
 
 Status checkFault(const FaultPlan& plan, SluiceTimelineKind timeline) {
+    if (ofProcess(plan.kind)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("fault {}", nameOf(plan.kind)),
+                     "the renderer runs in this process, which would die with it", "isolate the renderer"};
+    }
     const bool gl_waits = timeline == SLUICE_TIMELINE_NATIVE || timeline == SLUICE_TIMELINE_BINARY;
     const bool starves =
         plan.kind == FaultKind::Drop || plan.kind == FaultKind::Swap || plan.kind == FaultKind::Duplicate;

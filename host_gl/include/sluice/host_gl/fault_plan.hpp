@@ -14,22 +14,26 @@ namespace sluice::host {
 
 /// Everything but SkipWait of HOST_TO_RENDERER, which the renderer leaves out, is done on the host's side.
 enum class FaultKind : std::uint8_t {
-    Drop,        ///< the signal is never given; RENDERER_TO_HOST: the host never sees it
-    Delay,       ///< it comes late
-    Duplicate,   ///< it is given twice
-    Swap,        ///< it changes places with the host's next
-    WrongValue,  ///< another value is signalled, or waited for
-    SkipWait,    ///< the wait is left out
-    EarlyReuse,  ///< the composite is left out, and so is the wait before the set is captured into again
+    Drop,           ///< the signal is never given; RENDERER_TO_HOST: the host never sees it
+    Delay,          ///< it comes late
+    Duplicate,      ///< it is given twice
+    Swap,           ///< it changes places with the host's next
+    WrongValue,     ///< another value is signalled, or waited for
+    SkipWait,       ///< the wait is left out
+    EarlyReuse,     ///< the composite is left out, and so is the wait before the set is captured into again
+    KillRenderer,   ///< an isolated renderer is killed (SIGKILL) when it is to tell that the frame is done
+    CrashRenderer,  ///< it crashes (SIGSEGV) inside submit_frame, with the frame on its queue
 };
-inline constexpr std::array<std::pair<std::string_view, FaultKind>, 7> kFaultNames{
+inline constexpr std::array<std::pair<std::string_view, FaultKind>, 9> kFaultNames{
     {{"drop", FaultKind::Drop},
      {"delay", FaultKind::Delay},
      {"duplicate", FaultKind::Duplicate},
      {"swap", FaultKind::Swap},
      {"wrong-value", FaultKind::WrongValue},
      {"skip-wait", FaultKind::SkipWait},
-     {"early-reuse", FaultKind::EarlyReuse}}};
+     {"early-reuse", FaultKind::EarlyReuse},
+     {"kill-renderer", FaultKind::KillRenderer},
+     {"crash-renderer", FaultKind::CrashRenderer}}};
 
 struct FaultPlan {
     FaultKind kind{};
@@ -39,10 +43,16 @@ struct FaultPlan {
     std::uint64_t value = 0;
 };
 
+/// A fault of the renderer's process: IsolationConfig takes it, FluidHostConfig does not.
+[[nodiscard]] constexpr bool ofProcess(FaultKind kind) {
+    return kind == FaultKind::KillRenderer || kind == FaultKind::CrashRenderer;
+}
+
 /// Duplicate and Swap are about signals, and the renderer's are its own; EarlyReuse is about the host's wait.
 [[nodiscard]] constexpr bool possible(FaultKind kind, SluiceDirection direction) {
-    return direction == SLUICE_HOST_TO_RENDERER ? kind != FaultKind::EarlyReuse
-                                                : kind != FaultKind::Duplicate && kind != FaultKind::Swap;
+    return direction == SLUICE_HOST_TO_RENDERER
+               ? kind != FaultKind::EarlyReuse
+               : kind != FaultKind::Duplicate && kind != FaultKind::Swap && !ofProcess(kind);
 }
 
 /// Refuses what would hang on `timeline`: where OpenGL itself waits (NATIVE, BINARY), nothing ends a wait for a

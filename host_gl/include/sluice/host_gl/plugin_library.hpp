@@ -5,10 +5,13 @@
 #include <filesystem>
 #include <memory>
 
+#include "sluice/host_gl/isolation.hpp"
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
 
 namespace sluice::host {
+
+class Isolation;
 
 /// A loaded renderer library with a checked ABI. Move-only; unloading invalidates every renderer made from it.
 class PluginLibrary {
@@ -16,6 +19,9 @@ class PluginLibrary {
     /// Fails with a message that names the path and the remedy when the file is missing, is not a shared object, lacks
     /// the entry symbol, serves another ABI major, or returns an incomplete table.
     [[nodiscard]] static Result<PluginLibrary> load(const std::filesystem::path& path);
+    /// The plugin in processes of its own, one for each renderer; nothing of it is loaded here. Its table behaves as
+    /// the plugin's would, and says SLUICE_ERROR_DEVICE_LOST once the process has died or was killed because it hung.
+    [[nodiscard]] static Result<PluginLibrary> isolated(const IsolationConfig& config);
     PluginLibrary(PluginLibrary&&) noexcept;
     PluginLibrary& operator=(PluginLibrary&&) noexcept;
     ~PluginLibrary();
@@ -27,7 +33,8 @@ class PluginLibrary {
 
   private:
     PluginLibrary() = default;
-    void* handle_ = nullptr;
+    void* handle_ = nullptr;                ///< null when isolated
+    std::shared_ptr<Isolation> isolation_;  ///< null when loaded here
     std::unique_ptr<const SluiceRendererApi> api_;
     std::filesystem::path path_;
 };

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// A renderer plugin in a process of its own: what happens to that process does not happen to the host.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "sluice/host_gl/fault_plan.hpp"
+
+namespace sluice::host {
+
+struct IsolationConfig {
+    std::filesystem::path program;  ///< sluice-renderer
+    std::filesystem::path plugin;
+    /// Longest silence of the other process during a call; then it is killed and the call says so.
+    std::uint64_t call_timeout_ns = 60'000'000'000ULL;
+    std::optional<FaultPlan> fault;  ///< for tests; one of those that are ofProcess()
+};
+
+}  // namespace sluice::host

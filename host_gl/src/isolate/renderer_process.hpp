@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: MIT
+// A renderer's process as the host knows it: calls go in, answers or its end come out.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "isolate/child.hpp"
+#include "sluice/host_gl/isolation.hpp"
+#include "sluice/isolate/channel.hpp"
+#include "sluice/isolate/shared_timeline.hpp"
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::host {
+
+/// What a call may lead to before it ends. NULL: the renderer must not ask for it during this call.
+struct CallBacks {
+    const SluiceHostServices* services = nullptr;
+    SluiceLineSink sink = nullptr;
+    void* sink_user = nullptr;
+};
+
+struct Reply {
+    isolate::Returned returned;
+    std::vector<UniqueFd> fds;
+};
+
+/// One process and a thread that listens to it: log lines and trace events are passed on as they come, the end of the
+/// process is noticed whatever anybody waits for. Calls are made on one thread at a time.
+class RendererProcess {
+  public:
+    [[nodiscard]] static Result<std::unique_ptr<RendererProcess>> start(const IsolationConfig& config,
+                                                                        const isolate::Hello& hello);
+    RendererProcess(const RendererProcess&) = delete;
+    RendererProcess& operator=(const RendererProcess&) = delete;
+    /// Ends it; kills it if it does not end by itself.
+    ~RendererProcess();
+
+    [[nodiscard]] const isolate::Hello& hello() const { return hello_; }
+    [[nodiscard]] const isolate::Welcome& welcome() const { return welcome_; }
+    [[nodiscard]] isolate::SharedTimeline& timeline() { return *timeline_; }
+    /// Where log lines and trace events go from now on; nullptr: nowhere.
+    void passTo(const SluiceHostServices* services);
+    /// `doing` is what is said if the process ends meanwhile: "submit_frame of frame 3". Without an answer within the
+    /// deadline the process is killed.
+    [[nodiscard]] Result<Reply> call(const isolate::Message& message, std::span<const int> fds, std::string doing,
+                                     const CallBacks& back);
+    /// The counters are broken, or the renderer's side has failed: nothing it says is of use any more.
+    void condemn(std::string blame);
+    /// That the process is gone; and how, if the log has not been told.
+    [[nodiscard]] Error gone();
+
+  private:
+    RendererProcess(IsolationConfig config, const isolate::Hello& hello) : config_(std::move(config)), hello_(hello) {}
+    void listen();
+    void hear(isolate::Received received);
+    void noteEnd();
+    [[nodiscard]] Result<isolate::Received> nextMessage();
+    [[nodiscard]] isolate::Answer answerTo(isolate::Received& asked, const CallBacks& back) const;
+    /// False: nobody listens.
+    [[nodiscard]] bool log(std::int32_t level, const std::string& text);
+
+    IsolationConfig config_;
+    isolate::Hello hello_;
+    Child child_;
+    isolate::Channel channel_;
+    std::unique_ptr<isolate::SharedTimeline> timeline_;
+    isolate::Welcome welcome_;
+    std::uint64_t calls_ = 0;
+    std::atomic<bool> told_{false};
+
+    std::mutex services_mutex_;
+    std::optional<SluiceHostServices> services_;
+
+    std::mutex mutex_;  ///< of what follows
+    std::condition_variable changed_;
+    std::deque<isolate::Received> mail_;
+    std::string doing_ = "its start";
+    std::string blame_;         ///< why this process has ended it
+    std::optional<Error> end_;  ///< it is gone
+    bool ending_ = false;       ///< it was asked to end
+    std::thread listener_;
+};
+
+}  // namespace sluice::host
