@@ -33,8 +33,10 @@ TEST(RecoveryPolicy, TriesAfterOneTwoFourFramesAndThenGivesUp) {
     EXPECT_THAT(tried_at, ElementsAre(1, 3, 7));
     EXPECT_TRUE(recovery.givenUp());
     EXPECT_EQ(recovery.nextFrame(), Step::GivenUp);
-    recovery.forget();
-    EXPECT_FALSE(recovery.down());
+    recovery.allowTriesAgain();
+    EXPECT_EQ(recovery.nextFrame(), Step::Try);
+    recovery.tried(false);
+    EXPECT_TRUE(recovery.down());
 }
 
 TEST(RecoveryPolicy, CountsTriesFromTheBeginningOnlyWhenTheRendererHasSettled) {

@@ -63,6 +63,15 @@ Status checkInfo(const SluiceRendererInfo& info, const FluidHostConfig& config, 
         return brokenInfo(fmt::format("expected {} sets of {}x{}, found {} of {}x{}", config.image_sets, config.width,
                                       config.height, info.image_sets, info.width, info.height));
     }
+    // Before anything makes an enumerator of one of these.
+    if (info.timeline == SLUICE_TIMELINE_AUTO || info.timeline >= SLUICE_TIMELINE_KIND_COUNT) {
+        return brokenInfo(fmt::format("{} is no timeline in use", info.timeline));
+    }
+    for (const std::uint32_t format : info.formats) {
+        if (format >= SLUICE_FORMAT_COUNT) {
+            return brokenInfo(fmt::format("{} is no format", format));
+        }
+    }
     if (info.host_depth_encoding != SLUICE_DEPTH_WINDOW && info.host_depth_encoding != SLUICE_DEPTH_LINEAR) {
         return brokenInfo(fmt::format("{} is no depth encoding", info.host_depth_encoding));
     }

@@ -11,7 +11,7 @@ namespace sluice::host {
 
 namespace {
 
-// A renderer of two image sets was seen to have about 40 open at most, while it starts.
+// A start with two image sets was seen to need 11 (the property that Scarcity.AStart... records); drivers differ.
 constexpr rlim_t kFew = 64;
 // Nobody with so many numbers to give is out of them because of this process's first ones.
 constexpr rlim_t kMostLookedAt = 65536;

@@ -52,7 +52,7 @@ Status RecoveringHost::replaceImages(std::uint32_t width, std::uint32_t height) 
     }
     if (recovery_.down()) {
         // A size is a new beginning: what had no room at the last one may have it at this.
-        recovery_.forget();
+        recovery_.allowTriesAgain();
         return tryAgain();
     }
     Status status = withDescriptorNote(life_->resize(width, height));

@@ -55,9 +55,10 @@ void Recovery::frameWithFluid() {
     }
 }
 
-void Recovery::forget() {
-    const RecoveryPolicy policy = policy_;
-    *this = Recovery(policy);
+void Recovery::allowTriesAgain() {
+    tries_ = 0;
+    clean_ = 0;
+    to_go_ = 1;
 }
 
 }  // namespace sluice::host

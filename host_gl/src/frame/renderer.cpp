@@ -35,6 +35,27 @@ Result<T> filled(std::string_view call, const T& answer) {
     return readAbiStruct(answer);
 }
 
+/// Text that goes on to its array's end ends there.
+template <std::size_t N>
+void terminate(char (&text)[N]) {
+    text[N - 1] = '\0';
+}
+
+Result<SluiceFrameStats> checkedStats(Result<SluiceFrameStats> stats) {
+    if (!stats) {
+        return stats;
+    }
+    if (stats.value().pass_count > SLUICE_MAX_PASSES) {
+        return Error{SLUICE_ERROR_INTERNAL, "renderer poll",
+                     fmt::format("expected {} passes at most, found {}", SLUICE_MAX_PASSES, stats.value().pass_count),
+                     "the plugin is broken"};
+    }
+    for (SluicePassStats& pass : stats.value().passes) {
+        terminate(pass.name);
+    }
+    return stats;
+}
+
 }  // namespace
 
 Result<Renderer> Renderer::create(const SluiceRendererApi& api, const SluiceHostServices& services,
@@ -66,7 +87,14 @@ Result<SluiceRendererInfo> Renderer::info() const {
     if (const SluiceResult result = api_->info(handle_, &info); result != SLUICE_OK) {
         return rendererError("info", result, sized<SluiceError>());
     }
-    return filled("info", info);
+    Result<SluiceRendererInfo> answer = filled("info", info);
+    if (answer) {
+        SluiceRendererCapabilities& said = answer.value().capabilities;
+        terminate(said.device_name);
+        terminate(said.driver_name);
+        terminate(said.driver_info);
+    }
+    return answer;
 }
 
 Status Renderer::resize(std::uint32_t width, std::uint32_t height) const {
@@ -99,7 +127,7 @@ Result<SluiceFrameStats> Renderer::stats(std::uint64_t frame, std::uint64_t time
         auto stats = sized<SluiceFrameStats>();
         const SluiceResult result = api_->poll(handle_, frame, &stats);
         if (result == SLUICE_OK) {
-            return filled("poll", stats);
+            return checkedStats(filled("poll", stats));
         }
         if (result != SLUICE_NOT_READY) {
             return rendererError("poll", result, sized<SluiceError>());

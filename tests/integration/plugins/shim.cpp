@@ -3,16 +3,23 @@
 #include "plugins/shim.hpp"
 
 #include <dlfcn.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstring>
 #include <thread>
 #include <utility>
 
 #include "sluice/plugin.h"
 
+using sluice::host::test::Entry;
+using sluice::host::test::ImageLie;
+using sluice::host::test::InfoLie;
 using sluice::host::test::ShimControl;
+using sluice::host::test::StatsLie;
 
 #define SLUICE_SHIM_EXPORT __attribute__((visibility("default")))
 
@@ -39,6 +46,60 @@ SluiceResult refuse(SluiceError* error, SluiceResult code, const char* why) {
     return code;
 }
 
+/// True when `entry` shall fail; `error` then gets a text that fills it to its last byte.
+bool breaks(Entry entry, SluiceError* error) {
+    if (sluice_shim_control.broken != entry) {
+        return false;
+    }
+    if (error != nullptr) {
+        error->code = SLUICE_ERROR_INTERNAL;
+        std::memset(&error->message[0], 'x', sizeof(error->message));
+    }
+    return true;
+}
+
+SluiceResult (*share)(void*, const SluiceImageExport*, SluiceError*) = nullptr;
+
+SluiceResult shareLying(void* user, const SluiceImageExport* image, SluiceError* error) {
+    SluiceImageExport changed = *image;
+    switch (sluice_shim_control.image_lie) {
+        case ImageLie::Role:
+            changed.role = 99;
+            break;
+        case ImageLie::OtherRole:
+            changed.role = SLUICE_IMAGE_FLUID_DEPTH;
+            break;
+        case ImageLie::Set:
+            changed.image_set = 99;
+            break;
+        case ImageLie::Format:
+            changed.format = 99;
+            break;
+        case ImageLie::NoWidth:
+            changed.width = 0;
+            break;
+        case ImageLie::TwiceAsWide:
+            changed.width *= 2;
+            break;
+        case ImageLie::NoMemory: {
+            changed.fd = open("/dev/null", O_RDWR | O_CLOEXEC);
+            const SluiceResult result = share(user, &changed, error);
+            // What was accepted is the host's; of the renderer's own descriptor the host knows nothing then.
+            close(result == SLUICE_OK ? image->fd : changed.fd);
+            return result;
+        }
+        case ImageLie::Tiny:
+            changed.allocation_size = 1;
+            break;
+        case ImageLie::NotShared:
+            close(image->fd);
+            return SLUICE_OK;
+        case ImageLie::None:
+            break;
+    }
+    return share(user, &changed, error);
+}
+
 SluiceResult create(const SluiceHostServices* host, const SluiceCreateInfo* info, SluiceRenderer** renderer,
                     SluiceError* error) {
     ShimControl& control = sluice_shim_control;
@@ -46,6 +107,10 @@ SluiceResult create(const SluiceHostServices* host, const SluiceCreateInfo* info
         control.attempts.at(control.attempt_count) = info->timeline;
     }
     ++control.attempt_count;
+    if (breaks(Entry::Create, error)) {
+        *renderer = nullptr;
+        return SLUICE_ERROR_INTERNAL;
+    }
     if (has(control.refuses, info->timeline)) {
         *renderer = nullptr;
         return refuse(error, SLUICE_ERROR_UNSUPPORTED, "the shim refuses this timeline");
@@ -65,11 +130,40 @@ SluiceResult create(const SluiceHostServices* host, const SluiceCreateInfo* info
     if (control.mute) {
         services.trace = nullptr;
     }
+    share = host->share_image;
+    services.share_image = shareLying;
     return real->create(&services, &changed, renderer, error);
 }
 
 SluiceResult info(SluiceRenderer* renderer, SluiceRendererInfo* out) {
+    if (breaks(Entry::Info, nullptr)) {
+        return SLUICE_ERROR_INTERNAL;
+    }
     const SluiceResult result = real->info(renderer, out);
+    switch (sluice_shim_control.info_lie) {
+        case InfoLie::Timeline:
+            out->timeline = 77;
+            break;
+        case InfoLie::Sets:
+            out->image_sets = 1'000'000'000;
+            break;
+        case InfoLie::Size:
+            out->width = 0;
+            break;
+        case InfoLie::Format:
+            out->formats[SLUICE_IMAGE_FLUID_COLOUR] = 12345;
+            break;
+        case InfoLie::Encoding:
+            out->host_depth_encoding = 9;
+            break;
+        case InfoLie::EndlessNames:
+            std::memset(&out->capabilities.device_name[0], 'n', sizeof(out->capabilities.device_name));
+            std::memset(&out->capabilities.driver_name[0], 'n', sizeof(out->capabilities.driver_name));
+            std::memset(&out->capabilities.driver_info[0], 'n', sizeof(out->capabilities.driver_info));
+            break;
+        case InfoLie::None:
+            break;
+    }
     if (result == SLUICE_OK && claimed != SLUICE_TIMELINE_AUTO) {
         out->timeline = claimed;
     }
@@ -78,6 +172,12 @@ SluiceResult info(SluiceRenderer* renderer, SluiceRendererInfo* out) {
 
 SluiceResult submitFrame(SluiceRenderer* renderer, const SluiceFrame* frame, SluiceError* error) {
     ++sluice_shim_control.submits;
+    if (breaks(Entry::SubmitFrame, error)) {
+        SluiceFrame refused = *frame;
+        refused.outputs = UINT32_MAX;  // the real renderer has to hear of the frame's number
+        (void)real->submit_frame(renderer, &refused, nullptr);
+        return SLUICE_ERROR_INTERNAL;
+    }
     if (frame->frame == sluice_shim_control.lose_submit) {
         return refuse(error, SLUICE_ERROR_DEVICE_LOST, "the shim has lost its device");
     }
@@ -95,11 +195,26 @@ SluiceResult submitFrame(SluiceRenderer* renderer, const SluiceFrame* frame, Slu
 }
 
 SluiceResult poll(SluiceRenderer* renderer, std::uint64_t frame, SluiceFrameStats* stats) {
-    return frame == sluice_shim_control.lose_poll ? SLUICE_ERROR_DEVICE_LOST : real->poll(renderer, frame, stats);
+    if (breaks(Entry::Poll, nullptr)) {
+        return SLUICE_ERROR_INTERNAL;
+    }
+    const SluiceResult result =
+        frame == sluice_shim_control.lose_poll ? SLUICE_ERROR_DEVICE_LOST : real->poll(renderer, frame, stats);
+    if (sluice_shim_control.stats_lie == StatsLie::PassCount) {
+        stats->pass_count = 1'000'000'000;
+    } else if (sluice_shim_control.stats_lie == StatsLie::EndlessNames) {
+        for (SluicePassStats& pass : stats->passes) {
+            std::memset(&pass.name[0], 'p', sizeof(pass.name));
+        }
+    }
+    return result;
 }
 
 SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns) {
     ++sluice_shim_control.waits;
+    if (breaks(Entry::TimelineWait, nullptr)) {
+        return SLUICE_ERROR_INTERNAL;
+    }
     if (value != 0 && value == sluice_shim_control.stall_value) {
         using std::chrono::steady_clock;
         static steady_clock::time_point until;
@@ -122,6 +237,9 @@ SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::ui
 }
 
 SluiceResult resize(SluiceRenderer* renderer, std::uint32_t width, std::uint32_t height, SluiceError* error) {
+    if (breaks(Entry::Resize, error)) {
+        return SLUICE_ERROR_INTERNAL;
+    }
     if (sluice_shim_control.fail_resizes > 0) {
         --sluice_shim_control.fail_resizes;
         return refuse(error, SLUICE_ERROR_OUT_OF_MEMORY, "the shim finds no memory for these images");
@@ -130,14 +248,35 @@ SluiceResult resize(SluiceRenderer* renderer, std::uint32_t width, std::uint32_t
 }
 
 SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* particles, SluiceError* error) {
+    if (breaks(Entry::SetParticles, error)) {
+        return SLUICE_ERROR_INTERNAL;
+    }
     sluice_shim_control.particles = particles->count;
     sluice_shim_control.first_coordinate = particles->position[0];
     return real->set_particles(renderer, particles, error);
 }
 
 SluiceResult setEnvironment(SluiceRenderer* renderer, const SluiceEnvironment* environment, SluiceError* error) {
+    if (breaks(Entry::SetEnvironment, error)) {
+        return SLUICE_ERROR_INTERNAL;
+    }
     sluice_shim_control.environment_width = environment != nullptr ? environment->width : 0;
     return real->set_environment(renderer, environment, error);
+}
+
+SluiceResult timelineSignal(SluiceRenderer* renderer, std::uint64_t value) {
+    return breaks(Entry::TimelineSignal, nullptr) ? SLUICE_ERROR_INTERNAL : real->timeline_signal(renderer, value);
+}
+
+SluiceResult timelineValue(SluiceRenderer* renderer, std::uint32_t direction, std::uint64_t* value) {
+    return breaks(Entry::TimelineValue, nullptr) ? SLUICE_ERROR_INTERNAL
+                                                 : real->timeline_value(renderer, direction, value);
+}
+
+SluiceResult timelineExport(SluiceRenderer* renderer, std::uint32_t direction, std::uint64_t value, std::int32_t* fd,
+                            SluiceError* error) {
+    return breaks(Entry::TimelineExport, error) ? SLUICE_ERROR_INTERNAL
+                                                : real->timeline_export(renderer, direction, value, fd, error);
 }
 
 void destroy(SluiceRenderer* renderer) {
@@ -168,6 +307,9 @@ extern "C" SLUICE_SHIM_EXPORT const SluiceRendererApi* sluice_renderer_entry(std
     table.submit_frame = submitFrame;
     table.poll = poll;
     table.timeline_wait = timelineWait;
+    table.timeline_signal = timelineSignal;
+    table.timeline_value = timelineValue;
+    table.timeline_export = timelineExport;
     table.destroy = destroy;
     return &table;
 }

@@ -8,6 +8,39 @@
 
 namespace sluice::host::test {
 
+/// Functions of the table that a renderer instance has.
+enum class Entry : std::uint8_t {
+    None,
+    Create,
+    Info,
+    Resize,
+    SetParticles,
+    SetEnvironment,
+    SubmitFrame,
+    Poll,
+    TimelineSignal,
+    TimelineWait,
+    TimelineValue,
+    TimelineExport
+};
+/// One thing about an image that is shared which is not so.
+enum class ImageLie : std::uint8_t {
+    None,
+    Role,
+    OtherRole,
+    Set,
+    Format,
+    NoWidth,
+    TwiceAsWide,
+    NoMemory,
+    Tiny,
+    NotShared
+};
+/// One thing that the renderer says of itself which is not so.
+enum class InfoLie : std::uint8_t { None, Timeline, Sets, Size, Format, Encoding, EndlessNames };
+/// One thing about the statistics of a frame.
+enum class StatsLie : std::uint8_t { None, PassCount, EndlessNames };
+
 constexpr const char* kShimControlSymbol = "sluice_shim_control";
 
 /// Everything zero: the real renderer, unchanged. The GL thread alone touches it.
@@ -23,6 +56,10 @@ struct ShimControl {
     std::uint32_t fail_resizes = 0;  ///< so many calls of resize fail in the middle: there are no images
     std::uint64_t hang_frame = 0;    ///< submit_frame of this frame returns when `release` says so
     std::atomic<bool> release{false};
+    Entry broken{};        ///< this function fails, with a message that has no end
+    ImageLie image_lie{};  ///< of every image
+    InfoLie info_lie{};
+    StatsLie stats_lie{};
     bool mute = false;                        ///< the renderer is not given the trace service
     bool drop_host_wait = false;              ///< timeline_wait returns at once
     std::uint32_t waits = 0;                  ///< calls of timeline_wait

@@ -36,8 +36,8 @@ class Recovery {
     [[nodiscard]] Step nextFrame();
     void tried(bool succeeded);
     void frameWithFluid();
-    /// A fresh start, as after a resize by the caller.
-    void forget();
+    /// As many tries again as at the beginning, the first at once.
+    void allowTriesAgain();
 
     [[nodiscard]] bool down() const { return down_; }
     [[nodiscard]] bool givenUp() const { return down_ && tries_ >= policy_.attempts; }
