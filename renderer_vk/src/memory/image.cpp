@@ -158,9 +158,11 @@ Result<UniqueFd> Image::exportFd() const {
     auto info = vkStruct<VkMemoryGetFdInfoKHR>(VK_STRUCTURE_TYPE_MEMORY_GET_FD_INFO_KHR);
     info.memory = memory_;
     info.handleType = VK_EXTERNAL_MEMORY_HANDLE_TYPE_OPAQUE_FD_BIT;
+    // Before the call: should memory run out here, nobody would close the descriptor.
+    const std::string call = fmt::format("vkGetMemoryFdKHR of a {}x{} image", width_, height_);
     int fd = -1;
     const VkResult result = device_->fn.vkGetMemoryFdKHR(device_->handle, &info, &fd);
-    return exportedFd(result, fd, fmt::format("vkGetMemoryFdKHR of a {}x{} image", width_, height_));
+    return exportedFd(result, fd, call);
 }
 
 }  // namespace sluice::vk

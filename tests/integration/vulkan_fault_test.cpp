@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+// Vulkan itself fails under the real renderer: no memory for the Nth thing that it makes, a device that is lost with
+// the Nth submission. Each case tries some spread over all; with SLUICE_EVERY_ALLOCATION set, every one.
+#include <dlfcn.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "gl_test.hpp"
+#include "plugins/vk_faults.hpp"
+#include "recovery_rig.hpp"
+
+namespace sluice::host::test {
+namespace {
+
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+
+constexpr std::uint64_t kSome = 12;
+
+class VulkanFault : public RecoveryTest {
+  protected:
+    void SetUp() override {
+        // Read by the loader whenever an instance is created.
+        setenv("VK_LAYER_PATH", SLUICE_LAYER_FOLDER, 1);
+        setenv("VK_INSTANCE_LAYERS", "VK_LAYER_SLUICE_faults", 1);
+        // Held, so that what is asked of it outlives an instance.
+        layer_ = dlopen(SLUICE_LAYER_FOLDER "/libsluice_vk_faults.so", RTLD_NOW | RTLD_LOCAL);
+        ASSERT_NE(layer_, nullptr) << dlerror();
+        faults_ = static_cast<VkFaults*>(dlsym(layer_, kVkFaultSymbol));
+        ASSERT_NE(faults_, nullptr);
+        *faults_ = VkFaults{};
+        ASSERT_NO_FATAL_FAILURE(RecoveryTest::SetUp());
+    }
+    void TearDown() override {
+        RecoveryTest::TearDown();
+        *faults_ = VkFaults{};
+        dlclose(layer_);
+        unsetenv("VK_INSTANCE_LAYERS");
+        unsetenv("VK_LAYER_PATH");
+    }
+    [[nodiscard]] FluidHostConfig small() {
+        FluidHostConfig wanted = recovering(SLUICE_TIMELINE_BRIDGED);
+        wanted.width = 32;
+        wanted.height = 16;
+        wanted.recovery.settled_frames = 1;
+        return wanted;
+    }
+    void beginSmall() {
+        ASSERT_NO_FATAL_FAILURE(makeHost(small()));
+        ASSERT_NO_FATAL_FAILURE(makeScreen(32, 16));
+    }
+    [[nodiscard]] static std::uint64_t stepOf(std::uint64_t all) {
+        return std::getenv("SLUICE_EVERY_ALLOCATION") != nullptr ? 1 : std::max<std::uint64_t>(all / kSome, 1);
+    }
+
+    void* layer_ = nullptr;
+    VkFaults* faults_ = nullptr;
+};
+
+TEST_F(VulkanFault, NoMemoryForOneThingOfAStartIsAnErrorAndLeavesNothing) {
+    ASSERT_NO_FATAL_FAILURE(beginSmall());
+    const std::uint64_t all = faults_->made;
+    ASSERT_GT(all, 50U) << "the layer is not in use";
+    RecordProperty("calls", static_cast<int>(all));
+    host_.reset();
+    const int descriptors = openDescriptors();
+    for (std::uint64_t nth = 1; nth <= all; nth += stepOf(all)) {
+        SCOPED_TRACE(nth);
+        *faults_ = VkFaults{};
+        faults_->starve_at = nth;
+        const auto host = FluidHost::create(*library_, small());
+        // A format whose canary finds no memory may make way for the next.
+        EXPECT_TRUE(host.ok() || !host.error().message().empty());
+    }
+    EXPECT_LE(openDescriptors(), descriptors);
+    *faults_ = VkFaults{};
+    ASSERT_NO_FATAL_FAILURE(beginSmall());
+    EXPECT_EQ(run(2), "ff");
+    complaints_.clear();
+}
+
+TEST_F(VulkanFault, NoMemoryForOneThingOfAResizeOrAFrameIsMadeUpFor) {
+    ASSERT_NO_FATAL_FAILURE(beginSmall());
+    EXPECT_EQ(run(1), "f");
+    *faults_ = VkFaults{};
+    ASSERT_TRUE(host_->resize(33, 16));
+    ASSERT_NO_FATAL_FAILURE(makeScreen(33, 16));
+    EXPECT_EQ(run(1), "f");
+    const std::uint64_t all = faults_->made;
+    RecordProperty("calls", static_cast<int>(all));
+    const int descriptors = openDescriptors();
+    for (std::uint64_t nth = 1; nth <= all; nth += stepOf(all)) {
+        SCOPED_TRACE(nth);
+        *faults_ = VkFaults{};
+        faults_->starve_at = nth;
+        (void)host_->resize(33, 16);
+        EXPECT_THAT(run(6), EndsWith("ff"));
+    }
+    EXPECT_LE(openDescriptors(), descriptors);
+    complaints_.clear();
+}
+
+TEST_F(VulkanFault, ADeviceThatIsLostWithASubmissionCostsThatFrame) {
+    for (const SluiceTimelineKind timeline : {SLUICE_TIMELINE_BRIDGED, SLUICE_TIMELINE_FINISH}) {
+        *faults_ = VkFaults{};
+        drawn_ = 0;
+        FluidHostConfig wanted = small();
+        wanted.timeline = timeline;
+        ASSERT_NO_FATAL_FAILURE(makeHost(wanted));
+        ASSERT_NO_FATAL_FAILURE(makeScreen(32, 16));
+        EXPECT_EQ(run(2), "ff");
+        const int descriptors = openDescriptors();
+        for (int round = 0; round < 3; ++round) {
+            SCOPED_TRACE(round);
+            faults_->lose_at = faults_->submitted + 2;  // the frame after the next
+            EXPECT_EQ(run(6), "f-ffff");
+        }
+        EXPECT_EQ(host_->renderers(), 4U);
+        EXPECT_EQ(openDescriptors(), descriptors);
+        EXPECT_THAT(failures_, ::testing::Each(HasSubstr("VK_ERROR_DEVICE_LOST")));
+        host_.reset();
+    }
+    complaints_.clear();
+}
+
+}  // namespace
+}  // namespace sluice::host::test
