@@ -109,7 +109,9 @@ Status FrameRing::record(Slot& slot, const SluiceFrame& frame, const SharedImage
         recordUpload(device_, slot.commands, *slot.particles);
         particles = slot.particles->buffers();
     }
-    record(slot.commands, particles, slot.timer);
+    if (Status status = record(slot.commands, particles, slot.timer); !status) {
+        return status;
+    }
     images.recordRelease(slot.commands, frame.image_set);
     slot.timer.frameEnd(slot.commands);
     result = device_.fn.vkEndCommandBuffer(slot.commands);

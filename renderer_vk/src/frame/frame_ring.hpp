@@ -21,7 +21,7 @@
 namespace sluice::vk {
 
 /// Records the passes of a frame between its acquire and its release.
-using PassRecorder = std::function<void(VkCommandBuffer, const ParticleBuffers&, PassTimer&)>;
+using PassRecorder = std::function<Status(VkCommandBuffer, const ParticleBuffers&, PassTimer&)>;
 
 /// Used on the renderer's thread. Dies after drain(), before the timeline and the images.
 class FrameRing {

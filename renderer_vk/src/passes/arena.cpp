@@ -72,6 +72,7 @@ void FrameArena::begin(std::span<const std::byte> constants) {
     assert(constants.size() <= constants_.mapped().size());
     std::memcpy(constants_.mapped().data(), constants.data(), constants.size());
     device_->fn.vkResetDescriptorPool(device_->handle, pool_, 0);
+    failure_ = VK_SUCCESS;
 }
 
 void FrameArena::bind(VkCommandBuffer commands, VkPipelineBindPoint point, const Pipeline& pipeline,
@@ -83,9 +84,10 @@ void FrameArena::bind(VkCommandBuffer commands, VkPipelineBindPoint point, const
     allocate.pSetLayouts = &pipeline.set_layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
     const VkResult result = device_->fn.vkAllocateDescriptorSets(device_->handle, &allocate, &set);
-    // The pool is sized for every plan that makePlan can return, so that this cannot fail.
-    assert(result == VK_SUCCESS);
+    device_->fn.vkCmdBindPipeline(commands, point, pipeline.handle);
+    // The pool is sized for every plan that makePlan can return; memory may still run out.
     if (result != VK_SUCCESS) {
+        failure_ = failure_ == VK_SUCCESS ? result : failure_;
         return;
     }
     std::array<VkDescriptorImageInfo, kMaxBindings> images{};
@@ -105,7 +107,6 @@ void FrameArena::bind(VkCommandBuffer commands, VkPipelineBindPoint point, const
     }
     device_->fn.vkUpdateDescriptorSets(device_->handle, static_cast<std::uint32_t>(bindings.size()), writes.data(), 0,
                                        nullptr);
-    device_->fn.vkCmdBindPipeline(commands, point, pipeline.handle);
     device_->fn.vkCmdBindDescriptorSets(commands, point, pipeline.layout, 0, 1, &set, 0, nullptr);
 }
 

@@ -48,9 +48,13 @@ class FrameArena {
     /// Gives every descriptor set of the last recording back and stores the frame's constants.
     void begin(std::span<const std::byte> constants);
     [[nodiscard]] VkBuffer constants() const { return constants_.buffer(); }
-    /// Binds `pipeline` with `bindings` in order. Images are in VK_IMAGE_LAYOUT_GENERAL.
+    /// Binds `pipeline` with `bindings` in order. Images are in VK_IMAGE_LAYOUT_GENERAL. A failure is kept for
+    /// failure().
     void bind(VkCommandBuffer commands, VkPipelineBindPoint point, const Pipeline& pipeline,
               std::span<const Binding> bindings);
+
+    /// The first failure of a bind since begin(): what was recorded since must not be submitted.
+    [[nodiscard]] VkResult failure() const { return failure_; }
 
   private:
     void reset();
@@ -58,6 +62,7 @@ class FrameArena {
     const Device* device_ = nullptr;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     Buffer constants_;
+    VkResult failure_ = VK_SUCCESS;
 };
 
 }  // namespace sluice::vk

@@ -250,8 +250,8 @@ const Image* FluidRecorder::image(PlanImage id) const {
     return image ? &image : nullptr;
 }
 
-void FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan,
-                           const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer) {
+Status FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan,
+                             const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer) {
     assert(state_->plan && *state_->plan == plan);
     FrameArena& arena = state_->arenas.at(frame.image_set);
     FrameConstants constants = makeFrameConstants(frame, plan, targets, particles);
@@ -295,7 +295,11 @@ void FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, c
             case PassId::Count:
                 break;
         }
+        if (arena.failure() != VK_SUCCESS) {
+            return vulkanError(arena.failure(), fmt::format("vkAllocateDescriptorSets of frame {}", frame.frame));
+        }
     }
+    return {};
 }
 
 }  // namespace sluice::vk

@@ -32,8 +32,9 @@ class FluidRecorder {
     /// Records every pass of `plan`, which was the argument of the last successful prepare. The caller guarantees that
     /// the last recording for frame.image_set has finished on the device. Shared images are visible to fragment and
     /// compute shaders in GENERAL and are left so; their last writes are by compute.
-    void record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan, const FrameTargets& targets,
-                const ParticleBuffers& particles, PassTimer& timer);
+    /// On failure the commands must not be submitted.
+    [[nodiscard]] Status record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan,
+                                const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer);
     /// One of the renderer's own images, in GENERAL once recorded work has finished, for tests and captures; null if
     /// the plan has none. Valid until the next prepare.
     [[nodiscard]] const Image* image(PlanImage id) const;

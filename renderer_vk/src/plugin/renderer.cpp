@@ -204,7 +204,7 @@ Status SluiceRenderer::preparePlan(const SluiceFrame& frame) {
 Status SluiceRenderer::recordAndSubmit(const SluiceFrame& frame) {
     const FrameTargets targets = images_->targets(frame.image_set);
     const PassRecorder record = [&](VkCommandBuffer commands, const ParticleBuffers& particles, PassTimer& timer) {
-        recorder_->record(commands, frame, *plan_, targets, particles, timer);
+        return recorder_->record(commands, frame, *plan_, targets, particles, timer);
     };
     if (Status status = frames_->submit(frame, *images_, particles_, record); !status) {
         return status;
