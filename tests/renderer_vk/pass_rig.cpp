@@ -206,14 +206,16 @@ RigResult PassRig::render(const RigScene& scene) {
         result.failure = rig.failure;
         return result;
     }
-    const Status status = runOnce(device, [&](VkCommandBuffer commands) {
+    Status recorded;
+    Status status = runOnce(device, [&](VkCommandBuffer commands) {
         for (const Image* image : {&fluid_colour, &fluid_depth, &fluid_normal, &fluid_thickness}) {
             fullBarrier(device, commands, image->image(), VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
                         VK_IMAGE_LAYOUT_GENERAL);
         }
-        recorder_->record(commands, frame, result.plan, targets,
-                          {particles.value().buffer(), needs.particle_count, scene.radius}, timer);
+        recorded = recorder_->record(commands, frame, result.plan, targets,
+                                     {particles.value().buffer(), needs.particle_count, scene.radius}, timer);
     });
+    status = recorded ? status : recorded;
     if (!status) {
         result.failure = status.error().message();
         return result;
