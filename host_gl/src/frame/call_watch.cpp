@@ -61,11 +61,12 @@ void CallWatch::run() {
         lock.unlock();
         try {
             if (log_) {
-                log_(
-                    SLUICE_LOG_WARNING,
-                    fmt::format("watchdog: the renderer has not come back from {}{} for {:.1f} s, and the host's frame "
-                                "waits for it; nothing can end a call inside this process",
-                                call, frame != 0 ? fmt::format(" of frame {}", frame) : std::string(), seconds));
+                log_(SLUICE_LOG_WARNING,
+                     fmt::format(
+                         "watchdog: the renderer has not come back from {}{} for {:.1f} s, and the host's frame "
+                         "waits for it; a call inside this process cannot be ended, one in a process of its own can "
+                         "(sluice render --isolate)",
+                         call, frame != 0 ? fmt::format(" of frame {}", frame) : std::string(), seconds));
             }
         } catch (const std::exception&) {
             // Without memory there is no line; the call is no later for it.
