@@ -17,6 +17,7 @@
 #include "app/ledger_commands.hpp"
 #include "app/log.hpp"
 #include "app/parse_values.hpp"
+#include "app/simulate_command.hpp"
 #include "app/stress_command.hpp"
 
 namespace sluice::cli {
@@ -86,6 +87,7 @@ struct Line {
     GenerateOptions generate;
     ConvertOptions convert;
     LedgerCommands ledger;
+    SimulateOptions simulate;
     stress::Options stress;
     int verbosity = 0;
     std::function<int()> run;
@@ -251,6 +253,7 @@ int parseAndRun(int argc, const char* const* argv) {
     addGenerate(line);
     addConvert(line);
     addLedgerCommands(line.app, line.ledger, line.run);
+    addSimulateCommand(line.app, line.simulate, line.verbosity, line.run);
     addStressCommand(line.app, line.stress, line.run);
     for (CLI::App* command : line.app.get_subcommands(nullptr)) {
         command->group("Commands");
@@ -269,7 +272,8 @@ int parseAndRun(int argc, const char* const* argv) {
         (void)std::fputs(usageError(line.app, stop).c_str(), stderr);
         return kExitUsage;
     }
-    startLog(line.verbosity, line.render.quiet || line.generate.quiet || line.ledger.diagnose.quiet);
+    startLog(line.verbosity,
+             line.render.quiet || line.generate.quiet || line.simulate.quiet || line.ledger.diagnose.quiet);
     return line.run();
 }
 

@@ -11,6 +11,7 @@ namespace sluice::cli {
 [[nodiscard]] int probe(const ProbeOptions& options);
 [[nodiscard]] int explain(const ExplainOptions& options);
 [[nodiscard]] int generate(const GenerateOptions& options);
+[[nodiscard]] int simulate(const SimulateOptions& options);
 [[nodiscard]] int convert(const ConvertOptions& options);
 
 /// Parses the command line and runs the command. Never throws.

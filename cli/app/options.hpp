@@ -51,6 +51,13 @@ struct GenerateOptions {
     bool quiet = false;
 };
 
+struct SimulateOptions {
+    std::string scene, output;
+    std::optional<scene::FrameRange> frames;
+    std::uint64_t seed = 1;
+    bool json = false, quiet = false, validation = false;
+};
+
 struct ConvertOptions {
     std::string input, output;
     float radius = 0.0F;  ///< for inputs that carry none

@@ -98,6 +98,49 @@ void visitEngine(Visitor& v, host::EngineScene& e) {
 }
 
 template <typename Visitor>
+void visitSimulation(Visitor& v, Simulation& s) {
+    v.number("radius", s.radius, Range{1.0e-4, 100.0});
+    v.object("domain", [&s](auto& d) {
+        d.numbers("low", s.low, kAnyLength);
+        d.numbers("high", s.high, kAnyLength);
+    });
+    v.numbers("gravity", s.gravity, Range{-1.0e4, 1.0e4});
+    v.number("frames_per_second", s.frames_per_second, Range{1.0, 1.0e4});
+    v.integer("steps_per_frame", s.steps_per_frame, 1, 1000);
+    v.integer("iterations", s.iterations, 1, 64);
+    v.number("relaxation", s.relaxation, Range{1.0e-6, 1000.0});
+    v.number("tensile", s.tensile, kUnit);
+    v.number("viscosity", s.viscosity, kUnit);
+    v.number("vorticity", s.vorticity, Range{0.0, 100.0});
+    v.number("cfl", s.cfl, Range{0.01, 0.5});
+    v.number("jitter", s.jitter, Range{0.0, 0.5});
+    v.flag("collide_with_engine", s.collide_with_engine);
+    v.list("fluid", s.fluid, [](auto& o, FluidBox& box) {
+        o.numbers("low", box.low, kAnyLength);
+        o.numbers("high", box.high, kAnyLength);
+        o.numbers("velocity", box.velocity, Range{-1.0e4, 1.0e4});
+    });
+    v.list("spheres", s.spheres, [](auto& o, SolidSphere& sphere) {
+        o.numbers("centre", sphere.centre, kAnyLength);
+        o.number("radius", sphere.radius, kPositiveLength);
+    });
+    v.list("capsules", s.capsules, [](auto& o, SolidCapsule& capsule) {
+        o.numbers("from", capsule.from, kAnyLength);
+        o.numbers("to", capsule.to, kAnyLength);
+        o.number("radius", capsule.radius, kPositiveLength);
+    });
+    v.list("boxes", s.boxes, [](auto& o, SolidBox& box) {
+        o.numbers("centre", box.centre, kAnyLength);
+        o.numbers("half", box.half, kPositiveLength);
+        o.number("turn_degrees", box.turn_degrees, kDegrees);
+    });
+    v.list("planes", s.planes, [](auto& o, SolidPlane& plane) {
+        o.numbers("normal", plane.normal, Range{-kWorld, kWorld});
+        o.numbers("through", plane.through, kAnyLength);
+    });
+}
+
+template <typename Visitor>
 void visitScene(Visitor& v, Scene& s) {
     v.object("particles", [&s](auto& o) { visitParticles(o, s.particles); });
     v.object("camera", [&s](auto& o) { visitCamera(o, s.camera); });
@@ -105,6 +148,7 @@ void visitScene(Visitor& v, Scene& s) {
     v.text("environment", s.environment);
     v.object("fluid", [&s](auto& o) { visitFluid(o, s.fluid); });
     v.object("engine", [&s](auto& o) { visitEngine(o, s.engine); });
+    v.object("simulation", [&s](auto& o) { visitSimulation(o, s.simulation); });
     v.pair("frames", s.frames.first, s.frames.last, 0, kMaxFrame);
     v.pair("size", s.size.width, s.size.height, 1, kMaxSize);
 }

@@ -76,6 +76,50 @@ void checkFrames(ObjectReader& reader, const FrameRange& frames) {
     }
 }
 
+/// A box whose low corner is below its high one, each way.
+void checkBox(ObjectReader& reader, const std::string& key, const Vec3& low, const Vec3& high) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (low[axis] >= high[axis]) {
+            reader.fail(fmt::format("{}/high/{}", key, axis), fmt::format("a number > low, which is {}", low[axis]),
+                        fmt::format("{}", high[axis]));
+        }
+    }
+}
+
+bool overlap(const FluidBox& a, const FluidBox& b) {
+    bool apart = false;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        apart = apart || a.high[axis] <= b.low[axis] || b.high[axis] <= a.low[axis];
+    }
+    return !apart;
+}
+
+void checkSimulation(ObjectReader& reader, const Simulation& s) {
+    checkBox(reader, "simulation/domain", s.low, s.high);
+    for (std::size_t i = 0; i < s.fluid.size(); ++i) {
+        const std::string key = fmt::format("simulation/fluid/{}", i);
+        checkBox(reader, key, s.fluid[i].low, s.fluid[i].high);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (s.fluid[i].low[axis] < s.low[axis] || s.fluid[i].high[axis] > s.high[axis]) {
+                reader.fail(key, fmt::format("a box within the domain, {} to {}", shown(s.low), shown(s.high)),
+                            fmt::format("{} to {}", shown(s.fluid[i].low), shown(s.fluid[i].high)));
+            }
+        }
+        for (std::size_t other = 0; other < i; ++other) {
+            if (overlap(s.fluid[i], s.fluid[other])) {
+                reader.fail(key, fmt::format("a box that does not overlap fluid/{}", other),
+                            fmt::format("{} to {}", shown(s.fluid[i].low), shown(s.fluid[i].high)));
+            }
+        }
+    }
+    for (std::size_t i = 0; i < s.planes.size(); ++i) {
+        if (length(s.planes[i].normal) < 1.0e-6) {
+            reader.fail(fmt::format("simulation/planes/{}/normal", i), "a direction of length > 0",
+                        shown(s.planes[i].normal));
+        }
+    }
+}
+
 }  // namespace
 
 Result<Scene> parseScene(std::string_view text, const std::string& name) {
@@ -99,6 +143,7 @@ Result<Scene> parseScene(std::string_view text, const std::string& name) {
     checkCamera(reader, scene.camera);
     normaliseSun(reader, scene.sky);
     checkFrames(reader, scene.frames);
+    checkSimulation(reader, scene.simulation);
     if (failure) {
         return *failure;
     }

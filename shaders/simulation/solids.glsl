@@ -62,7 +62,7 @@ float halfSpaceSlope(float q) {
 // overlap they are counted once, as if each took its share of what the other left (exact in a right-angled edge at d = 0).
 vec4 withWall(vec4 walls, vec3 n, float d) {
     const float q = clamp(d / p.high.w, 0.0, 1.0);
-    const float share = halfSpace(q);
+    const float share = p.search.y * halfSpace(q);
     return vec4(walls.xyz * (1.0 - share) - n * (halfSpaceSlope(q) * (1.0 - walls.w)),
                 walls.w + share * (1.0 - walls.w));
 }

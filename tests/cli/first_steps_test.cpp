@@ -52,7 +52,8 @@ class FirstSteps : public ProgramTest {
 };
 
 TEST_F(FirstSteps, HelpPagesFitATerminalAndShowNothingOfTheLibraryBeneath) {
-    for (const char* command : {"", "render", "probe", "explain", "generate", "generate pool", "convert", "stress"}) {
+    for (const char* command :
+         {"", "render", "probe", "explain", "generate", "generate pool", "convert", "simulate", "stress"}) {
         const Outcome help = run(std::string(command) + " --help");
         EXPECT_EQ(help.code, 0);
         EXPECT_THAT(help.out, HasSubstr("Usage: sluice" + std::string(*command == 0 ? "" : " ") + command + " "));
@@ -180,7 +181,7 @@ TEST_F(FirstSteps, ASceneWithoutARadiusForSuchFilesSaysWhereToSetIt) {
 
 TEST_F(FirstSteps, TheManualsSynopsisIsWhatHelpSays) {
     const std::vector<std::string> lines = manualLines("```");
-    EXPECT_THAT(lines, SizeIs(6));
+    EXPECT_THAT(lines, SizeIs(7));
     for (const std::string& line : lines) {
         const std::string usage = line.substr(0, line.find("  "));
         const auto argument = std::find_if(usage.begin() + 7, usage.end(),

@@ -34,6 +34,14 @@ TEST(SceneFile, EveryKeyIsRead) {
                   "refraction": false},
         "engine": {"pillars": [{"base": [1, 0, 2], "radius": 0.25, "height": 3}],
                    "basins": [{"centre": [0, 1, 0], "half_x": 1, "half_z": 2, "height": 3, "wall": 4}]},
+        "simulation": {"radius": 0.05, "domain": {"low": [-2, 0, -2], "high": [2, 3, 2]}, "gravity": [0, -1, 0],
+                       "frames_per_second": 60, "steps_per_frame": 2, "iterations": 7, "viscosity": 0.5,
+                       "collide_with_engine": false,
+                       "fluid": [{"low": [0, 0, 0], "high": [1, 1, 1], "velocity": [0, 0, 4]}],
+                       "spheres": [{"centre": [1, 2, 3], "radius": 0.5}],
+                       "capsules": [{"from": [1, 2, 3], "to": [4, 5, 6], "radius": 0.25}],
+                       "boxes": [{"centre": [1, 2, 3], "half": [1, 2, 3], "turn_degrees": 30}],
+                       "planes": [{"normal": [0, 1, 0], "through": [0, -1, 0]}]},
         "frames": [3, 8], "size": [64, 48]})",
                                           "s.json");
     ASSERT_TRUE(read.ok()) << read.error().message();
@@ -55,6 +63,19 @@ TEST(SceneFile, EveryKeyIsRead) {
     EXPECT_EQ(s.engine.pillars[0].height, 3.0F);
     ASSERT_EQ(s.engine.basins.size(), 1U);
     EXPECT_EQ(s.engine.basins[0].half_z, 2.0F);
+    EXPECT_EQ(s.simulation.high, (Vec3{2, 3, 2}));
+    EXPECT_EQ(s.simulation.iterations, 7U);
+    EXPECT_EQ(s.simulation.steps_per_frame, 2U);
+    EXPECT_EQ(s.simulation.frames_per_second, 60.0F);
+    EXPECT_EQ(s.simulation.viscosity, 0.5F);
+    EXPECT_EQ(s.simulation.collide_with_engine, 0U);
+    ASSERT_EQ(s.simulation.fluid.size(), 1U);
+    EXPECT_EQ(s.simulation.fluid[0].velocity, (Vec3{0, 0, 4}));
+    ASSERT_EQ(s.simulation.capsules.size(), 1U);
+    EXPECT_EQ(s.simulation.capsules[0].to, (Vec3{4, 5, 6}));
+    ASSERT_EQ(s.simulation.boxes.size(), 1U);
+    EXPECT_EQ(s.simulation.boxes[0].turn_degrees, 30.0F);
+    EXPECT_EQ(writeScene(parseScene(writeScene(s), "again").value()), writeScene(s));
     EXPECT_EQ(s.frames, (FrameRange{3, 8}));
     EXPECT_EQ(s.size, (Size{64, 48}));
 }

@@ -30,9 +30,9 @@ void setTestSwitches(const TestSwitches& switches) noexcept;
 
 /// What the device must be and who hears of it.
 struct DeviceRequest {
-    SluiceHostCapabilities host{};                 ///< UUIDs to match
-    bool match_host = true;                        ///< false: take the first device that can run frames (tests only)
-    bool validation = false;                       ///< the Khronos layer with synchronisation validation
+    SluiceHostCapabilities host{};  ///< UUIDs to match
+    bool match_host = true;         ///< false: take the first device that can run frames, for what shares nothing
+    bool validation = false;        ///< the Khronos layer with synchronisation validation
     const SluiceHostServices* services = nullptr;  ///< log; may be null; must outlive the device
 };
 

@@ -18,6 +18,21 @@ double poly6Factor(double h) {
     return 315.0 / (64.0 * std::numbers::pi * std::pow(h, 9));
 }
 
+/// The bracket of poly6 summed over a cubic lattice of spacing 2r about one of its points, from the layer `first` on.
+double latticeSum(double radius, int first) {
+    const double h = 4.0 * radius;
+    double sum = 0.0;
+    for (int x = first; x <= 2; ++x) {
+        for (int y = -2; y <= 2; ++y) {
+            for (int z = -2; z <= 2; ++z) {
+                const double square = 4.0 * radius * radius * (x * x + y * y + z * z);
+                sum += std::pow(std::max(h * h - square, 0.0), 3);
+            }
+        }
+    }
+    return sum;
+}
+
 std::uint32_t powerOfTwo(double cells) {
     std::uint32_t power = 4;  // three rows must be three different ones
     while (static_cast<double>(power) < cells && power < kMostCells) {
@@ -49,17 +64,17 @@ Grid planGrid(const SimulationSettings& settings, std::uint32_t particles) {
 }
 
 double particleVolume(double radius) {
-    const double h = 4.0 * radius;
-    double sum = 0.0;
-    for (int x = -2; x <= 2; ++x) {
-        for (int y = -2; y <= 2; ++y) {
-            for (int z = -2; z <= 2; ++z) {
-                const double square = 4.0 * radius * radius * (x * x + y * y + z * z);
-                sum += std::pow(std::max(h * h - square, 0.0), 3);
-            }
-        }
-    }
-    return 1.0 / (poly6Factor(h) * sum);
+    return 1.0 / (poly6Factor(4.0 * radius) * latticeSum(radius, -2));
+}
+
+double wallFactor() {
+    constexpr double kRadius = 0.25;  // h = 1; the factor is the same for all
+    // halfSpace(0.25) of solids.glsl.
+    constexpr double q = kRadius;
+    constexpr double s = q * q;
+    constexpr double kHalfSpace =
+        0.5 - 315.0 / 256.0 * q * (1.0 + s * (-4.0 / 3.0 + s * (6.0 / 5.0 + s * (-4.0 / 7.0 + s / 9.0))));
+    return (1.0 - latticeSum(kRadius, 0) / latticeSum(kRadius, -2)) / kHalfSpace;
 }
 
 Parameters parametersOf(const SimulationSettings& s, const Grid& grid, std::uint32_t particles, std::uint32_t stride,
@@ -76,7 +91,7 @@ Parameters parametersOf(const SimulationSettings& s, const Grid& grid, std::uint
                 static_cast<float>(-volume * 45.0 / (std::numbers::pi * std::pow(h, 6))),
                 static_cast<float>(double{s.relaxation} / (h * h)), static_cast<float>(double{s.tensile} * h * h)};
     p.fluid = {s.viscosity, s.vorticity, static_cast<float>(1.0 / tensile), 1.0F / dt};
-    p.search = {static_cast<float>(1.0 / grid.side), 0, 0, 0};
+    p.search = {static_cast<float>(1.0 / grid.side), static_cast<float>(wallFactor()), 0, 0};
     p.count = {particles, stride, most, static_cast<std::uint32_t>(s.solids.size())};
     p.grid = {grid.x, grid.y - 1, grid.z - 1, grid.cells()};
     for (std::size_t i = 0; i < s.solids.size(); ++i) {

@@ -33,6 +33,10 @@ inline constexpr std::uint32_t kMostCells = 1U << 22;
 /// Volume of a particle, m^3: with it, a cubic lattice of spacing 2r has the density of rest, exactly 1.
 [[nodiscard]] double particleVolume(double radius);
 
+/// What the density of a wall, poly6 integrated over a half-space, is multiplied with: with it, a cubic lattice whose
+/// first layer is a radius away from the wall has the density of rest there too, exactly 1. A number near 0.881.
+[[nodiscard]] double wallFactor();
+
 /// `stride` is the distance between rows of the neighbour lists, `most` the rows.
 [[nodiscard]] Parameters parametersOf(const SimulationSettings& settings, const Grid& grid, std::uint32_t particles,
                                       std::uint32_t stride, std::uint32_t most, float dt);

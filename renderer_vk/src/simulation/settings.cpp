@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <numbers>
 
 namespace sluice::vk {
@@ -46,6 +47,44 @@ double distanceToBox(const Solid& solid, const Triple& x) {
         out[i] = std::max(out[i], 0.0);
     }
     return inner > 0.0 ? length(out) : inner;
+}
+
+/// Whether a corner of the domain lies below the plane.
+bool planeReaches(const Solid& plane, const SimulationSettings& s, double slack) {
+    for (unsigned corner = 0; corner < 8; ++corner) {
+        const Triple x{(corner & 1U) != 0 ? s.high[0] : s.low[0], (corner & 2U) != 0 ? s.high[1] : s.low[1],
+                       (corner & 4U) != 0 ? s.high[2] : s.low[2]};
+        if (distanceTo(plane, x) < -slack) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// Whether the box around the solid, along the world's axes, overlaps the domain.
+bool boxReaches(const Solid& solid, const SimulationSettings& s, double slack) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        auto low = double{solid.a[axis]};
+        auto high = low;
+        if (solid.kind == SolidKind::Capsule) {
+            low = std::min(low, double{solid.b[axis]});
+            high = std::max(high, double{solid.b[axis]});
+        }
+        auto reach = double{solid.radius};
+        if (solid.kind == SolidKind::Box) {
+            Vector along{};
+            along[axis] = 1.0;
+            along = turnedBack(solid.turn, along);
+            reach = 0.0;
+            for (std::size_t i = 0; i < 3; ++i) {
+                reach += std::abs(along[i]) * double{solid.b[i]};
+            }
+        }
+        if (high + reach <= double{s.low[axis]} + slack || low - reach >= double{s.high[axis]} - slack) {
+            return false;
+        }
+    }
+    return true;
 }
 
 bool finite(std::span<const float> values) {
@@ -130,6 +169,16 @@ double distanceTo(const Solid& solid, const Triple& x) {
     return length(away) - double{solid.radius};
 }
 
+std::vector<Solid> solidsWithin(const SimulationSettings& settings) {
+    const double slack = 1e-3 * double{settings.radius};
+    std::vector<Solid> within;
+    std::copy_if(settings.solids.begin(), settings.solids.end(), std::back_inserter(within), [&](const Solid& solid) {
+        return solid.kind == SolidKind::Plane ? planeReaches(solid, settings, slack)
+                                              : boxReaches(solid, settings, slack);
+    });
+    return within;
+}
+
 Status checkSettings(const SimulationSettings& s) {
     const struct {
         const char* name;
@@ -160,13 +209,14 @@ Status checkSettings(const SimulationSettings& s) {
                          fmt::format("{} to {}", shown(s.low), shown(s.high)));
         }
     }
-    if (s.solids.size() > kMaxSolids) {
-        return wrong("simulation: solids", fmt::format("at most {}", kMaxSolids), fmt::format("{}", s.solids.size()));
-    }
     for (std::size_t i = 0; i < s.solids.size(); ++i) {
         if (Status status = checkSolid(s.solids[i], i); !status) {
             return status;
         }
+    }
+    if (const std::size_t within = solidsWithin(s).size(); within > kMaxSolids) {
+        return wrong("simulation: solids", fmt::format("at most {} that reach into the domain", kMaxSolids),
+                     fmt::format("{}", within));
     }
     return {};
 }

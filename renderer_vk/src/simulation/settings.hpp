@@ -33,6 +33,7 @@ struct Solid {
 /// Distance from x to the solid's surface, metres; negative inside.
 [[nodiscard]] double distanceTo(const Solid& solid, const Triple& x);
 
+/// Of those that reach into the domain.
 inline constexpr std::uint32_t kMaxSolids = 64;
 /// Position-based fluid; docs/simulation.md has every term. Metres, seconds.
 struct SimulationSettings {
@@ -49,6 +50,10 @@ struct SimulationSettings {
 
     [[nodiscard]] float support() const { return 4.0F * radius; }
 };
+
+/// The solids that reach into the domain. The others, such as a floor that is the domain's own lower face, would only
+/// count that face twice.
+[[nodiscard]] std::vector<Solid> solidsWithin(const SimulationSettings& settings);
 
 /// The first setting that is not finite or out of its range, named.
 [[nodiscard]] Status checkSettings(const SimulationSettings& settings);

@@ -191,6 +191,7 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
         return status.error();
     }
     auto state = std::make_unique<State>(device, settings);
+    state->settings.solids = solidsWithin(settings);
     Result<Kernels> kernels = Kernels::create(device);
     if (!kernels) {
         return kernels.error();
@@ -243,6 +244,9 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
     double most = seconds;  // halved when a step went too far, until the next one that did not
     while (left > 0.0 && total.steps + total.split < kMostSteps) {
         const double wanted = nextStep(left, s.speed, limits);
+        if (left / wanted > kMostSteps) {
+            break;
+        }
         const double dt = std::min(wanted, most);
         const Result<StepReport> report = s.attempt(dt);
         if (!report) {

@@ -33,16 +33,36 @@ Vec wide(const Triple& v) {
     return {double{v[0]}, double{v[1]}, double{v[2]}};
 }
 
-struct Kernels {
-    double h, volume;
+/// Simpson's rule over [from, h], which the polynomials below leave exact to round-off with this many parts.
+template <typename F>
+double integral(double from, double to, const F& f) {
+    constexpr int kParts = 400;
+    const double step = (to - from) / kParts;
+    double sum = f(from) + f(to);
+    for (int i = 1; i < kParts; ++i) {
+        sum += (i % 2 == 1 ? 4.0 : 2.0) * f(from + i * step);
+    }
+    return sum * step / 3.0;
+}
 
-    explicit Kernels(double radius) : h(4.0 * radius), volume(1.0) {
+struct Kernels {
+    double h, volume, wall;
+
+    explicit Kernels(double radius) : h(4.0 * radius), volume(1.0), wall(1.0) {
         double sum = 0.0;
+        double behind = 0.0;
         for (int i = 0; i < 125; ++i) {
             const Vec at{2.0 * radius * (i % 5 - 2), 2.0 * radius * (i / 5 % 5 - 2), 2.0 * radius * (i / 25 - 2)};
             sum += poly6(norm(at));
+            behind += at[0] < 0.0 ? poly6(norm(at)) : 0.0;
         }
         volume = 1.0 / sum;
+        wall = volume * behind / halfSpace(radius);
+    }
+    /// Over the plane at depth z poly6 integrates to pi/4 (h^2 - z^2)^4 times its factor.
+    [[nodiscard]] double halfSpace(double distance) const {
+        const double factor = 315.0 / (64.0 * kPi * std::pow(h, 9));
+        return factor * integral(distance, h, [this](double z) { return kPi / 4.0 * std::pow(h * h - z * z, 4); });
     }
     [[nodiscard]] double poly6(double r) const {
         return r < h ? 315.0 / (64.0 * kPi * std::pow(h, 9)) * std::pow(h * h - r * r, 3) : 0.0;
@@ -121,18 +141,6 @@ Vec pushedOut(const SimulationSettings& s, Vec x) {
     return x;
 }
 
-/// Simpson's rule over [from, h], which the polynomials below leave exact to round-off with this many parts.
-template <typename F>
-double integral(double from, double to, const F& f) {
-    constexpr int kParts = 400;
-    const double step = (to - from) / kParts;
-    double sum = f(from) + f(to);
-    for (int i = 1; i < kParts; ++i) {
-        sum += (i % 2 == 1 ? 4.0 : 2.0) * f(from + i * step);
-    }
-    return sum * step / 3.0;
-}
-
 struct Walls {
     Vec gradient{};
     double density = 0.0;
@@ -144,9 +152,7 @@ Walls wallsAt(const SimulationSettings& s, const Kernels& kernels, const Vec& x)
     Walls walls;
     for (const Contact& contact : contacts(s, x)) {
         const double d = std::clamp(contact.distance, 0.0, h);
-        // Over the plane at depth z poly6 integrates to pi/4 (h^2 - z^2)^4 times its factor.
-        const double share = 315.0 / (64.0 * kPi * std::pow(h, 9)) *
-                             integral(d, h, [h](double z) { return kPi / 4.0 * std::pow(h * h - z * z, 4); });
+        const double share = kernels.wall * kernels.halfSpace(d);
         // The gradient of a half-space is spiky, 15 / (pi h^6) (h - r)^3, over the plane that bounds it.
         const double slope = 15.0 / (kPi * std::pow(h, 6)) *
                              integral(d, h, [h](double r) { return 2.0 * kPi * r * std::pow(h - r, 3); });

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sluice/host_gl/engine.hpp"
 #include "sluice/plugin.h"
@@ -56,6 +57,48 @@ struct CameraPath {
 /// The default daylight. to_sun is unit.
 [[nodiscard]] SluiceSky defaultSky();
 
+/// A box that is full of particles at the start.
+struct FluidBox {
+    Vec3 low, high;  ///< metres
+    Vec3 velocity;   ///< m/s
+};
+struct SolidSphere {
+    Vec3 centre;
+    float radius;
+};
+/// Everything within radius of the line between two points.
+struct SolidCapsule {
+    Vec3 from, to;
+    float radius;
+};
+/// Turned about +y, as host::Crate is.
+struct SolidBox {
+    Vec3 centre, half;
+    float turn_degrees;
+};
+/// Everything on the side that the normal points away from; it need not be unit.
+struct SolidPlane {
+    Vec3 normal, through;
+};
+
+/// What `sluice simulate` makes particles of. docs/simulation.md has the formulas. Frame 1 is time 0.
+struct Simulation {
+    float radius = 0.02F;                ///< of a particle, metres
+    Vec3 low{-1, 0, -1}, high{1, 2, 1};  ///< the box that nothing leaves
+    Vec3 gravity{0, -9.81F, 0};          ///< m/s^2
+    float frames_per_second = 30.0F;
+    std::uint32_t steps_per_frame = 4;  ///< at least; fast fluid takes more
+    std::uint32_t iterations = 4;
+    float relaxation = 0.1F, tensile = 0.0005F, viscosity = 0.02F, vorticity = 0.0F, cfl = 0.4F;
+    float jitter = 0.05F;                   ///< radii that a particle may be off its lattice at the start
+    std::uint32_t collide_with_engine = 1;  ///< floor, pillars, crates and basins are solids too
+    std::vector<FluidBox> fluid;
+    std::vector<SolidSphere> spheres;
+    std::vector<SolidCapsule> capsules;
+    std::vector<SolidBox> boxes;
+    std::vector<SolidPlane> planes;
+};
+
 struct Scene {
     ParticleSource particles;
     CameraPath camera;
@@ -63,6 +106,7 @@ struct Scene {
     std::string environment;  ///< latitude-longitude image, resolved against the scene file; empty: the procedural sky
     SluiceFluid fluid = defaultFluid();
     host::EngineScene engine;
+    Simulation simulation;
     FrameRange frames;
     Size size;
 };

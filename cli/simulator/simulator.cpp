@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+#include "simulator/simulator.hpp"
+
+#include <algorithm>
+
+#include "device/device.hpp"
+#include "simulation/solver.hpp"
+
+namespace sluice::simulator {
+namespace {
+
+vk::SimulationSettings settingsOf(const Setup& setup) {
+    vk::SimulationSettings s;
+    s.radius = setup.radius;
+    s.low = setup.low;
+    s.high = setup.high;
+    s.gravity = setup.gravity;
+    s.iterations = setup.iterations;
+    s.relaxation = setup.relaxation;
+    s.tensile = setup.tensile;
+    s.viscosity = setup.viscosity;
+    s.vorticity = setup.vorticity;
+    s.cfl = setup.cfl;
+    for (const Sphere& sphere : setup.spheres) {
+        s.solids.push_back(vk::sphereSolid(sphere.centre, sphere.radius));
+    }
+    for (const Capsule& capsule : setup.capsules) {
+        s.solids.push_back(vk::capsuleSolid(capsule.from, capsule.to, capsule.radius));
+    }
+    for (const Box& box : setup.boxes) {
+        s.solids.push_back(vk::boxSolid(box.centre, box.half, box.turn_degrees));
+    }
+    for (const Plane& plane : setup.planes) {
+        s.solids.push_back(vk::planeSolid(plane.normal, plane.through));
+    }
+    return s;
+}
+
+}  // namespace
+
+double clearance(const Setup& setup, const Vec3& x) {
+    double nearest = 1e300;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        nearest =
+            std::min({nearest, double{x[axis]} - double{setup.low[axis]}, double{setup.high[axis]} - double{x[axis]}});
+    }
+    for (const vk::Solid& solid : settingsOf(setup).solids) {
+        nearest = std::min(nearest, vk::distanceTo(solid, x));
+    }
+    return nearest;
+}
+
+struct Simulator::State {
+    std::unique_ptr<vk::Device> device;
+    std::unique_ptr<vk::Solver> solver;  // dies before its device
+};
+
+Simulator::Simulator(std::unique_ptr<State> state) : state_(std::move(state)) {}
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+Simulator::~Simulator() = default;
+
+Result<Simulator> Simulator::create(const Setup& setup, bool validation) {
+    const vk::SimulationSettings settings = settingsOf(setup);
+    if (const Status status = vk::checkSettings(settings); !status) {
+        return status.error();
+    }
+    auto state = std::make_unique<State>();
+    vk::DeviceRequest request;
+    request.match_host = false;  // nothing is shared with OpenGL
+    request.validation = validation;
+    auto device = vk::Device::create(request);
+    if (!device) {
+        return device.error();
+    }
+    state->device = std::move(device).value();
+    auto solver = vk::Solver::create(*state->device, settings);
+    if (!solver) {
+        return solver.error();
+    }
+    state->solver = std::move(solver).value();
+    return Simulator(std::move(state));
+}
+
+Status Simulator::setParticles(const Particles& particles) {
+    return state_->solver->setParticles(particles.position, particles.velocity);
+}
+
+Result<Advance> Simulator::advance(double seconds, double longest) {
+    const Result<vk::AdvanceReport> report = state_->solver->advance(seconds, longest);
+    if (!report) {
+        return report.error();
+    }
+    const vk::AdvanceReport& r = report.value();
+    Advance out{r.steps, r.split, r.shortest, r.speed, r.most_neighbours, 0.0, 0.0};
+    const Result<std::vector<float>> densities = state_->solver->densities();
+    if (!densities) {
+        return densities.error();
+    }
+    for (const float density : densities.value()) {
+        out.mean_compression += std::max(double{density} - 1.0, 0.0);
+        out.greatest_density = std::max(out.greatest_density, double{density});
+    }
+    out.mean_compression /= static_cast<double>(densities.value().size());
+    return out;
+}
+
+Result<Particles> Simulator::read() const {
+    Result<vk::ParticleState> state = state_->solver->read();
+    if (!state) {
+        return state.error();
+    }
+    return Particles{std::move(state.value().position), std::move(state.value().velocity)};
+}
+
+std::string Simulator::device() const {
+    return state_->device->properties.deviceName;
+}
+
+std::uint32_t Simulator::validationMessages() const {
+    return state_->device->validationMessages();
+}
+
+std::vector<std::pair<std::string, double>> Simulator::times() const {
+    return state_->solver->times();
+}
+
+}  // namespace sluice::simulator

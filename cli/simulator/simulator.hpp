@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+// A fluid that is simulated on the first Vulkan device that can, without OpenGL and without a plugin.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sluice/result.hpp"
+
+namespace sluice::simulator {
+
+using Vec3 = std::array<float, 3>;
+
+struct Sphere {
+    Vec3 centre;
+    float radius;
+};
+struct Capsule {
+    Vec3 from, to;
+    float radius;
+};
+struct Box {
+    Vec3 centre, half;
+    float turn_degrees;  ///< about +y
+};
+struct Plane {
+    Vec3 normal, through;
+};
+
+/// docs/simulation.md has every number; metres and seconds.
+struct Setup {
+    float radius = 0.02F;
+    Vec3 low{}, high{}, gravity{};
+    std::uint32_t iterations = 4;
+    float relaxation = 0.0F, tensile = 0.0F, viscosity = 0.0F, vorticity = 0.0F, cfl = 0.0F;
+    std::vector<Sphere> spheres;
+    std::vector<Capsule> capsules;
+    std::vector<Box> boxes;
+    std::vector<Plane> planes;
+};
+
+/// Particles in the order in which they were given; triples.
+struct Particles {
+    std::vector<float> position, velocity;
+};
+
+/// What it took to get from one time to another.
+struct Advance {
+    std::uint32_t steps = 0, split = 0;  ///< split: steps taken again in halves
+    double shortest = 0.0;               ///< step, seconds
+    double speed = 0.0;                  ///< greatest, m/s
+    std::uint32_t most_neighbours = 0;
+    double mean_compression = 0.0;  ///< mean of max(density - 1, 0) after the last step, in densities of rest
+    double greatest_density = 0.0;
+};
+
+/// Distance from `x` to the nearest solid or face of the domain, metres; negative where no fluid may be.
+[[nodiscard]] double clearance(const Setup& setup, const Vec3& x);
+
+/// The device and the solver on it. Errors of create: INVALID_ARGUMENT when the setup is wrong, else the device's.
+class Simulator {
+  public:
+    static Result<Simulator> create(const Setup& setup, bool validation);
+    Simulator(Simulator&&) noexcept;
+    Simulator& operator=(Simulator&&) noexcept;
+    ~Simulator();
+
+    [[nodiscard]] Status setParticles(const Particles& particles);
+    /// On an error the particles are those of the last good step.
+    [[nodiscard]] Result<Advance> advance(double seconds, double longest);
+    [[nodiscard]] Result<Particles> read() const;
+    [[nodiscard]] std::string device() const;
+    [[nodiscard]] std::uint32_t validationMessages() const;
+    /// Milliseconds of each pass so far.
+    [[nodiscard]] std::vector<std::pair<std::string, double>> times() const;
+
+  private:
+    struct State;
+    explicit Simulator(std::unique_ptr<State> state);
+    std::unique_ptr<State> state_;
+};
+
+}  // namespace sluice::simulator

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// `sluice simulate`: the files it writes, that they are the same again, and what it says when it cannot.
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.hpp"
+
+namespace sluice::test {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class Simulate : public ProgramTest {
+  protected:
+    /// A few hundred large particles that fall beside a pillar and onto a crate of the engine.
+    void writeFluid(const std::string& name, const std::string& velocity = "[0, 0, 0]") const {
+        write(name, R"({
+            "engine": {"pillars": [{"base": [0.5, 0, 0], "radius": 0.2, "height": 1}],
+                       "crates": [{"centre": [-0.5, 0.2, 0], "size": 0.4, "turn_degrees": 30}]},
+            "simulation": {"radius": 0.05, "fluid": [{"low": [-0.6, 0.5, -0.4], "high": [0.2, 1.1, 0.4],
+                                                      "velocity": )" +
+                        velocity + R"(}]}})");
+    }
+    nlohmann::json simulate(const std::string& words) const {
+        const Outcome outcome = run("simulate " + words + " --json");
+        EXPECT_EQ(outcome.code, 0) << outcome.err;
+        return nlohmann::json::parse(outcome.out, nullptr, false);
+    }
+};
+
+TEST_F(Simulate, RangesOfOneRunByTwoProcessesAreTheSameFiles) {
+    writeFluid("s.json");
+    const nlohmann::json whole = simulate("s.json -o whole_##.ply --frames 1..4 --validation");
+    EXPECT_EQ(whole["frames"]["written"], 4);
+    EXPECT_EQ(whole["particles"]["count"], 8 * 6 * 8);
+    EXPECT_EQ(whole["validation_messages"], 0);
+    EXPECT_GE(whole["steps"], 12);
+    const nlohmann::json part = simulate("s.json -o part_##.ply --frames 3..4");
+    EXPECT_EQ(part["frames"]["written"], 2);
+    EXPECT_EQ(part["replay_hash"], whole["replay_hash"]);
+    EXPECT_THAT(files(), ElementsAre("part_03.ply", "part_04.ply", "s.json", "whole_01.ply", "whole_02.ply",
+                                     "whole_03.ply", "whole_04.ply"));
+    EXPECT_EQ(read("part_03.ply"), read("whole_03.ply"));
+    EXPECT_EQ(read("part_04.ply"), read("whole_04.ply"));
+    EXPECT_NE(read("whole_03.ply"), read("whole_04.ply"));
+    EXPECT_NE(simulate("s.json -o other_##.pos --frames 4..4 --seed 2")["replay_hash"], whole["replay_hash"]);
+}
+
+TEST_F(Simulate, SaysWhatItDidAndWhereTheTimeWent) {
+    writeFluid("s.json");
+    const Outcome outcome = run("simulate s.json -o f_##.pos --frames 1..2");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("384 particles of radius 0.05000 m on "), HasSubstr("neighbours"),
+                                   HasSubstr("ms per step"), HasSubstr("2 files, frames 1 to 2; replay hash ")));
+    EXPECT_EQ(run("simulate s.json -o f_##.pos --frames 1..2 --quiet").out, "");
+}
+
+TEST_F(Simulate, AWrongCommandLineIsOneAndAWrongSceneTwo) {
+    writeFluid("s.json");
+    write("empty.json", "{}");
+    write("small.json", R"({"simulation": {"fluid": [{"low": [0,0,0], "high": [0.01,1,1], "velocity": [0,0,0]}]}})");
+    write("huge.json", R"({"simulation": {"radius": 0.0001,
+                           "fluid": [{"low": [-1,0,-1], "high": [1,2,1], "velocity": [0,0,0]}]}})");
+    const auto answer = [this](const char* words, int code, const char* says) {
+        const Outcome outcome = run(std::string("simulate ") + words);
+        EXPECT_EQ(outcome.code, code) << words << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr(says)) << words;
+    };
+    answer("s.json", 1, "--output");
+    answer("s.json -o f.pos --frames 1..3", 1, "\"f.pos\" has no place for the number of 3 frames");
+    answer("s.json -o f_##.pos --frames 0..3", 1, "frame 1 is the start");
+    answer("s.json -o f.png --frames 1..1", 1, "expected the ending .pos");
+    answer("s.json -o s.json --frames 1..1", 1, "expected the ending .pos");
+    answer("none.json -o f.pos", 2, "none.json");
+    answer("empty.json -o f.pos", 2, "empty.json: /simulation/fluid: ");
+    answer("small.json -o f.pos", 2, "outside the solids, found none");
+    answer("huge.json -o f.pos", 2, "at most 4000000 particles");
+    EXPECT_THAT(files(), ElementsAre("empty.json", "huge.json", "s.json", "small.json"));
+}
+
+TEST_F(Simulate, AFluidThatIsTooFastIsReportedAndTheFramesBeforeStay) {
+    writeFluid("s.json", "[0, -10000, 0]");
+    const Outcome outcome = run("simulate s.json -o f_##.pos --frames 1..3");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("no step was stable"), HasSubstr("1e+04 m/s")));
+    EXPECT_THAT(files(), ElementsAre("f_01.pos", "s.json"));
+}
+
+}  // namespace
+}  // namespace sluice::test
