@@ -83,7 +83,8 @@ TEST_F(OutOfMemory, InAStart) {
                            }
                            made.reset();
                            descriptors = descriptors < 0 ? openDescriptors() : descriptors;
-                           EXPECT_LE(openDescriptors(), descriptors);
+                           EXPECT_TRUE(descriptorsReturnTo(descriptors))
+                               << openDescriptors() << " instead of " << descriptors;
                        });
     ASSERT_NO_FATAL_FAILURE(beginSmall());
     EXPECT_EQ(run(2), "ff");

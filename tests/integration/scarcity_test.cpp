@@ -6,9 +6,6 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <chrono>
-#include <thread>
-
 #include "gl_test.hpp"
 #include "recovery_rig.hpp"
 #include "sluice/fd.hpp"
@@ -39,14 +36,6 @@ class OnlyDescriptors {
     rlimit before_{};
 };
 
-/// Threads of drivers may have a file open for a moment.
-bool returnTo(int count) {
-    for (int i = 0; i < 500 && openDescriptors() != count; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return openDescriptors() == count;
-}
-
 class Scarcity : public RecoveryTest {
   protected:
     void SetUp() override {
@@ -74,7 +63,7 @@ TEST_F(Scarcity, AStartWithTooFewDescriptorsFailsAndLeavesNothing) {
             }
         }
         enough = created ? count : -1;
-        EXPECT_TRUE(returnTo(before)) << openDescriptors() << " instead of " << before;
+        EXPECT_TRUE(descriptorsReturnTo(before)) << openDescriptors() << " instead of " << before;
     }
     ASSERT_GE(enough, 1);
     RecordProperty("descriptors", enough);
@@ -100,7 +89,7 @@ TEST_F(Scarcity, AResizeWithTooFewDescriptorsIsMadeUpForWhenThereAreSomeAgain) {
         ASSERT_NO_FATAL_FAILURE(makeScreen(width, 48));
         EXPECT_EQ(run(2), "ff");
         EXPECT_EQ(host_->info().width, width);
-        EXPECT_TRUE(returnTo(before)) << openDescriptors() << " instead of " << before;
+        EXPECT_TRUE(descriptorsReturnTo(before)) << openDescriptors() << " instead of " << before;
     }
     EXPECT_TRUE(succeeded);
     complaints_.clear();
