@@ -112,7 +112,7 @@ void RecoveringHost::fault(const Error& cause) {
     log(SLUICE_LOG_WARNING,
         recovery_.givenUp()
             ? fmt::format("renderer: useless once more after {} tries, given up: {}", recovery_.tries(), cause_)
-            : fmt::format("renderer: useless from frame {} on, created again in {} (try {} of {}): {}", submitted_ + 1,
+            : fmt::format("renderer: useless from frame {} on, created again in {} (try {} of {}): {}", last_fluid_ + 1,
                           frames(recovery_.framesToGo()), recovery_.tries() + 1, config_.recovery.attempts, cause_));
 }
 

@@ -85,6 +85,7 @@ class RecoveringHost final : public FluidHost {
             Status status = life_->composite(screen);
             if (status) {
                 without_fluid_ = 0;
+                last_fluid_ = submitted_;
                 recovery_.frameWithFluid();
             }
             return judged(std::move(status));
@@ -130,6 +131,7 @@ class RecoveringHost final : public FluidHost {
     std::uint64_t submitted_ = 0;
     std::uint32_t renderers_ = 0;
     std::uint64_t without_fluid_ = 0;  ///< submits since the last composite
+    std::uint64_t last_fluid_ = 0;     ///< the frame of that composite
     std::uint64_t down_since_ns_ = 0;
     std::string cause_;
     std::string_view context_loss_;  ///< empty while there is a context
