@@ -67,7 +67,7 @@ class IsolationTest : public EchoTest {
     }
 };
 
-TEST_F(IsolationTest, FramesAndResizesAreCleanWithEveryTimelineAndUnderValidation) {
+TEST_F(IsolationTest, FramesAndResizesAreCleanUnderValidation) {
     ASSERT_NO_FATAL_FAILURE(isolate());
     for (const SluiceTimelineKind kind : {SLUICE_TIMELINE_BRIDGED, SLUICE_TIMELINE_FINISH}) {
         FluidHostConfig wanted = config();

@@ -7,8 +7,11 @@
 #include <unistd.h>
 
 #include <array>
+#include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
+#include <vector>
 
 #include "sluice/isolate/channel.hpp"
 #include "sluice/isolate/sealed_memory.hpp"

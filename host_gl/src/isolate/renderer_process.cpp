@@ -216,6 +216,7 @@ Result<isolate::Received> RendererProcess::nextMessage() {
 
 Result<Reply> RendererProcess::call(const isolate::Message& message, std::span<const int> fds, std::string doing,
                                     const CallBacks& back) {
+    const std::lock_guard one_call(call_mutex_);
     {
         const std::lock_guard lock(mutex_);
         if (!end_) {

@@ -37,7 +37,7 @@ struct Reply {
 };
 
 /// One process and a thread that listens to it: log lines and trace events are passed on as they come, the end of the
-/// process is noticed whatever anybody waits for. Calls are made on one thread at a time.
+/// process is noticed whatever anybody waits for. Any thread; calls come one after another.
 class RendererProcess {
   public:
     [[nodiscard]] static Result<std::unique_ptr<RendererProcess>> start(const IsolationConfig& config,
@@ -77,6 +77,7 @@ class RendererProcess {
     isolate::Channel channel_;
     std::unique_ptr<isolate::SharedTimeline> timeline_;
     isolate::Welcome welcome_;
+    std::mutex call_mutex_;  ///< a call from its message to its answer
     std::uint64_t calls_ = 0;
     std::atomic<bool> told_{false};
 
