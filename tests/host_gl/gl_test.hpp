@@ -7,9 +7,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <thread>
 
 #include "sluice/host_gl/context.hpp"
 
@@ -39,6 +41,15 @@ class GlTest : public ::testing::Test {
         ++count;
     }
     return count - 3;  // ".", ".." and the directory's own
+}
+
+/// Whether no more than `count` descriptors are open, at once or soon: threads of drivers may have a file open for a
+/// moment.
+[[nodiscard]] inline bool descriptorsReturnTo(int count) {
+    for (int i = 0; i < 500 && openDescriptors() > count; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return openDescriptors() <= count;
 }
 
 /// A texture with storage, nearest filters and one level; freed with the context current.

@@ -4,9 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "gl_test.hpp"
@@ -14,15 +12,6 @@
 #include "sluice/host_gl/recovery.hpp"
 
 namespace sluice::host::test {
-
-/// Whether no more than `count` descriptors are open, at once or soon: threads of drivers may have a file open for a
-/// moment.
-[[nodiscard]] inline bool descriptorsReturnTo(int count) {
-    for (int i = 0; i < 500 && openDescriptors() > count; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    return openDescriptors() <= count;
-}
 
 class RecoveryTest : public LedgerTest {
   protected:
