@@ -90,7 +90,26 @@ void addStressCommand(CLI::App& app, stress::Options& options, std::function<int
     addChoice(c, "--topology", o.topology, stress::kTopologies, "NAME",
               "one-thread, bridge-thread, two-processes or all");
     addChoice(c, "--fault", o.fault, stress::kFaults, "NAME",
-              "none (if not given), drop, delay, duplicate,\nskip-wait, wrong-value, early-reuse or all");
+              "none (if not given), drop, delay, duplicate,\nskip-wait, wrong-value, early-reuse, swap,\nwrong-layout "
+              "or all");
+    auto* preset = c.add_option_function<std::string>(
+        "--preset",
+        [&o](const std::string& text) {
+            if (text != "piglit") {
+                throw CLI::ValidationError(badValue("--preset", "piglit", text).message());
+            }
+            o.pattern = stress::Pattern::PingPong;
+            o.backend = stress::Backend::Bridged;
+            o.topology = stress::Topology::BridgeThread;
+            o.alternations = true;
+            o.handoffs = 3 * stress::kAlternations;
+        },
+        "piglit: 255 x 128 alternations each through a\ncolour image, a depth image and a buffer");
+    preset->type_name("NAME");
+    for (const char* other :
+         {"--pattern", "--backend", "--resource", "--topology", "--fault", "--handoffs", "--seconds"}) {
+        preset->excludes(c.get_option(other));
+    }
     c.add_option("--log", o.log, "where to keep the ledger's log of the first failure;\nstress-SEED.sluicelog")
         ->type_name("FILE");
     c.add_flag("--json", o.json, "as JSON on stdout");

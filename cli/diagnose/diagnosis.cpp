@@ -66,6 +66,7 @@ Result<Diagnosis> diagnoseLog(const std::string& path) {
     diagnosis.log = path;
     diagnosis.recording = recorder.take(summary.value());
     diagnosis.findings = ledger.findings();
+    diagnosis.unheard = ledger.unheard();
     diagnosis.dropped = ledger.findingsDropped();
     diagnosis.steps = ledger::schedule(diagnosis.recording);
     diagnosis.report = ledger::makeReport(diagnosis.recording, diagnosis.steps);
@@ -95,7 +96,7 @@ std::string verdict(const Diagnosis& diagnosis) {
         add(counted(diagnosis.warnings, "warning", "warnings"));
     }
     if (diagnosis.clean()) {
-        add("clean");
+        add(diagnosis.unheard.empty() ? "clean" : "clean as far as it was told");
     }
     if (diagnosis.infos > 0) {
         add(counted(diagnosis.infos, "remark", "remarks"));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "sluice/ledger/ledger.hpp"
 #include "sluice/ledger/report.hpp"
 
 namespace sluice::cli {
@@ -25,6 +26,7 @@ struct Diagnosis {
     std::vector<ledger::Step> steps;
     ledger::Report report;
     std::vector<ledger::Finding> findings;
+    std::vector<ledger::Unheard> unheard;               ///< actors for which the findings do not speak
     std::uint64_t dropped = 0;                          ///< found, but not kept
     std::vector<FindingGroup> groups;                   ///< errors first
     std::uint64_t errors = 0, warnings = 0, infos = 0;  ///< kept findings without their repeats
@@ -42,7 +44,7 @@ struct Diagnosis {
 [[nodiscard]] std::string counted(std::uint64_t count, const char* one, const char* several);
 /// "420 ns", "12.3 us", "4.56 ms", "1.23 s".
 [[nodiscard]] std::string formatTime(std::uint64_t ns);
-/// "clean" or "2 errors, 1 warning".
+/// "clean", "clean as far as it was told" or "2 errors, 1 warning".
 [[nodiscard]] std::string verdict(const Diagnosis& diagnosis);
 /// Whether a part of a critical path began when a wait was satisfied, rather than when work was submitted or at the
 /// start.

@@ -100,12 +100,17 @@ Json diagnosisJson(const Diagnosis& d) {
                           {"count", group.count},
                           {"cost_ns", group.cost_ns}});
     }
+    Json unheard = Json::array();
+    for (const ledger::Unheard& one : d.unheard) {
+        unheard.push_back({{"since_frame", one.since_frame}, {"why", one.why}});
+    }
     return {{"log", d.log},
             {"verdict", d.clean() ? "clean" : "findings"},
             {"closed", d.recording.summary.end == ledger::End::Closed},
             {"events", d.recording.events.size()},
             {"origin_ns", d.recording.summary.first_ns},
             {"actors", std::move(actors)},
+            {"unheard", std::move(unheard)},
             {"errors", d.errors},
             {"warnings", d.warnings},
             {"remarks", d.infos},

@@ -65,6 +65,7 @@ class PageData {
                 {"totalEvents", d_.recording.events.size()},
                 {"totalFrames", d_.report.frames.size()},
                 {"dropped", d_.dropped},
+                {"unheard", unheard()},
                 {"actors", actors()},
                 {"events", events()},
                 {"frames", frames()},
@@ -77,6 +78,13 @@ class PageData {
     }
 
   private:
+    [[nodiscard]] Json unheard() const {
+        Json list = Json::array();
+        for (const ledger::Unheard& one : d_.unheard) {
+            list.push_back(one.why);
+        }
+        return list;
+    }
     [[nodiscard]] std::uint64_t at(std::uint64_t ns) const { return ns > origin_ ? ns - origin_ : 0; }
     [[nodiscard]] Json placeOf(std::uint64_t event) const {
         const auto found = event < kNone ? place_.find(static_cast<std::uint32_t>(event)) : place_.end();

@@ -21,6 +21,15 @@ std::string header(const Diagnosis& d) {
         d.recording.summary.end == ledger::End::Closed ? "" : "; the log was cut off, not closed");
 }
 
+std::string unheardText(const Diagnosis& d) {
+    std::string text;
+    for (const ledger::Unheard& one : d.unheard) {
+        text += fmt::format("not judged{}: {}\n",
+                            one.since_frame == 0 ? "" : fmt::format(", from frame {} on", one.since_frame), one.why);
+    }
+    return text;
+}
+
 std::string groupTable(const Diagnosis& d) {
     std::vector<std::vector<std::string>> rows{{"finding", "severity", "count", "first frame", "cost"}};
     for (const FindingGroup& group : d.groups) {
@@ -133,7 +142,7 @@ std::string reportText(const Diagnosis& d, const TextOptions& options) {
 }  // namespace
 
 std::string diagnosisText(const Diagnosis& d, const TextOptions& options) {
-    std::string text = header(d);
+    std::string text = header(d) + unheardText(d);
     if (!d.groups.empty()) {
         text += "\n" + groupTable(d);
     }

@@ -32,6 +32,14 @@ std::string verdict(const Row& row) {
     return fault == Fault::None ? "clean" : fault == Fault::Delay ? "borne" : "seen";
 }
 
+nlohmann::ordered_json counts(const stress::FaultCounts& one) {
+    return {{"injected", one.injected},
+            {"by_pixels", one.by_pixels},
+            {"by_ledger", one.by_ledger},
+            {"by_both", one.by_both},
+            {"unseen", one.unseen}};
+}
+
 nlohmann::ordered_json names(const Combination& one) {
     return {{"pattern", toString(one.pattern)},
             {"backend", toString(one.backend)},
@@ -104,6 +112,8 @@ nlohmann::ordered_json stressJson(const std::vector<Row>& rows, const stress::Ma
         one["findings"] = row.findings;
         one["faults"] = {{"injected", row.faults}, {"by_pixels", row.by_pixels}, {"by_ledger", row.by_ledger},
                          {"by_both", row.by_both}, {"unseen", row.unseen},       {"refused_by_guard", row.refused}};
+        one["faults"]["gl"] = counts(row.at[0]);
+        one["faults"]["vulkan"] = counts(row.at[1]);
         one["told"] = row.told;
         one["verdict"] = verdict(row);
         one["failure"] = row.failure ? nlohmann::ordered_json(*row.failure) : nlohmann::ordered_json();

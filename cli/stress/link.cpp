@@ -74,9 +74,9 @@ Link::~Link() {
     }
 }
 
-void Link::arm(Fault fault, std::uint64_t value, std::uint32_t delay_us) {
+void Link::arm(Fault fault, std::uint64_t value, std::uint32_t delay_us, std::uint64_t other) {
     const std::lock_guard guard(mutex_);
-    armed_.emplace(value, Armed{fault, delay_us});
+    armed_.emplace(value, Armed{fault, delay_us, other});
 }
 
 void Link::expectSignal(std::uint64_t value) {
@@ -111,7 +111,7 @@ SluiceResult Link::fromGl(std::uint64_t value) {
 }
 
 SluiceResult Link::raise(ledger::ActorId by, std::uint64_t value) {
-    Armed armed{Fault::None, 0};
+    Armed armed{Fault::None, 0, 0};
     {
         const std::lock_guard guard(mutex_);
         if (const auto found = armed_.find(value); found != armed_.end()) {
@@ -126,8 +126,13 @@ SluiceResult Link::raise(ledger::ActorId by, std::uint64_t value) {
         if (armed.fault == Fault::Delay) {
             std::this_thread::sleep_for(std::chrono::microseconds(armed.delay_us));
         }
-        book_->event(EventKind::Signal, by, kToRenderer, value);
-        status = vulkan_.signal(value);
+        const std::uint64_t given = armed.fault == Fault::Swap ? armed.other : value;
+        book_->event(EventKind::Signal, by, kToRenderer, given);
+        status = vulkan_.signal(given);
+        if (given < value && !status) {
+            ++refused_;  // the later one of a swap has come first: the guard is right
+            status = Status{};
+        }
         if (armed.fault == Fault::Duplicate) {
             book_->event(EventKind::Signal, by, kToRenderer, value);
             refused_ += vulkan_.signal(value) ? 0U : 1U;

@@ -34,8 +34,9 @@ class Link {
     [[nodiscard]] const SluiceRendererApi& api() const { return api_; }
     [[nodiscard]] SluiceRenderer* renderer() { return reinterpret_cast<SluiceRenderer*>(this); }
 
-    /// What happens to the signal of `value`, before it is promised: Drop, Delay or Duplicate.
-    void arm(Fault fault, std::uint64_t value, std::uint32_t delay_us);
+    /// What happens to the signal of `value`, before it is promised: Drop, Delay, Duplicate, or Swap, which gives
+    /// `other` in its place.
+    void arm(Fault fault, std::uint64_t value, std::uint32_t delay_us, std::uint64_t other = 0);
     /// A relay has these values to pass on: from OpenGL, and from the queue.
     void expectSignal(std::uint64_t value);
     void expectBack(std::uint64_t value);
@@ -49,13 +50,14 @@ class Link {
     [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
     /// Up to here every signal has been given or dropped.
     [[nodiscard]] std::uint64_t past();
-    /// Signals that the renderer's own guard refused: the second ones of duplicates.
+    /// Signals that the renderer's own guard refused: the second ones of duplicates and of swaps.
     [[nodiscard]] std::uint64_t refused() const { return refused_; }
 
   private:
     struct Armed {
         Fault fault;
         std::uint32_t delay_us;
+        std::uint64_t other;
     };
     /// Values that a relay thread has still to pass on.
     struct Post {

@@ -27,7 +27,7 @@ enum class Backend : std::uint8_t { Bridged, Finish, Native, Binary };
 enum class Resource : std::uint8_t { Colour, D32F, R32F, Buffer };
 /// Who waits for OpenGL's fences: the host's own thread, a bridge thread, or another process.
 enum class Topology : std::uint8_t { OneThread, BridgeThread, TwoProcesses };
-enum class Fault : std::uint8_t { None, Drop, Delay, Duplicate, SkipWait, WrongValue, EarlyReuse };
+enum class Fault : std::uint8_t { None, Drop, Delay, Duplicate, SkipWait, WrongValue, EarlyReuse, Swap, WrongLayout };
 
 template <typename T>
 struct Named {
@@ -52,13 +52,15 @@ inline constexpr std::array<Named<Resource>, 4> kResources{
 inline constexpr std::array<Named<Topology>, 3> kTopologies{{{Topology::OneThread, "one-thread"},
                                                              {Topology::BridgeThread, "bridge-thread"},
                                                              {Topology::TwoProcesses, "two-processes"}}};
-inline constexpr std::array<Named<Fault>, 7> kFaults{{{Fault::None, "none"},
+inline constexpr std::array<Named<Fault>, 9> kFaults{{{Fault::None, "none"},
                                                       {Fault::Drop, "drop"},
                                                       {Fault::Delay, "delay"},
                                                       {Fault::Duplicate, "duplicate"},
                                                       {Fault::SkipWait, "skip-wait"},
                                                       {Fault::WrongValue, "wrong-value"},
-                                                      {Fault::EarlyReuse, "early-reuse"}}};
+                                                      {Fault::EarlyReuse, "early-reuse"},
+                                                      {Fault::Swap, "swap"},
+                                                      {Fault::WrongLayout, "wrong-layout"}}};
 
 template <typename T, std::size_t N>
 [[nodiscard]] constexpr std::string_view nameIn(const std::array<Named<T>, N>& names, T value) {
@@ -85,6 +87,10 @@ template <typename T, std::size_t N>
     return nameIn(kFaults, value);
 }
 
+/// The run "piglit": as many links of one chain, through each of colour image, depth image and buffer, as piglit's
+/// vk_ping_pong makes through its buffer: 255 iterations of 128.
+inline constexpr std::uint64_t kAlternations = 255 * 128;
+
 /// One cell of the matrix.
 struct Combination {
     Pattern pattern = Pattern::PingPong;
@@ -102,6 +108,7 @@ struct Options {
     std::optional<Resource> resource;
     std::optional<Topology> topology;
     std::optional<Fault> fault = Fault::None;
+    bool alternations = false;  ///< of the resources: all but R32F, see kAlternations
     std::uint64_t seed = 1;
     std::optional<std::uint64_t> handoffs;  ///< in all, shared out evenly over the combinations
     std::optional<double> seconds;          ///< likewise

@@ -71,6 +71,9 @@ std::string whyNot(const Combination& combination) {
         return "with finish the queue is idle when a submission returns, so none may wait for a later signal; take "
                "bridged";
     }
+    if (combination.fault == Fault::WrongLayout && combination.resource == Resource::Buffer) {
+        return "a buffer has no layout; take colour, D32F or R32F";
+    }
     return {};
 }
 
@@ -83,6 +86,9 @@ Result<Matrix> matrixOf(const Options& options) {
                     for (const Topology topology : chosen(kTopologies, options.topology)) {
                         const Combination one{pattern, backend, resource, topology, fault};
                         std::string why = whyNot(one);
+                        if (options.alternations && resource == Resource::R32F) {
+                            continue;  // colour of another format
+                        }
                         if (why.empty()) {
                             matrix.runs.push_back(one);
                         } else {
@@ -96,8 +102,10 @@ Result<Matrix> matrixOf(const Options& options) {
     if (matrix.runs.empty()) {
         const Skipped& first = matrix.skipped.front();
         return Error{SLUICE_ERROR_INVALID_ARGUMENT,
-                     fmt::format("--pattern {} --backend {} --topology {}", toString(first.combination.pattern),
-                                 toString(first.combination.backend), toString(first.combination.topology)),
+                     fmt::format("--pattern {} --backend {} --resource {} --topology {} --fault {}",
+                                 toString(first.combination.pattern), toString(first.combination.backend),
+                                 toString(first.combination.resource), toString(first.combination.topology),
+                                 toString(first.combination.fault)),
                      first.why, ""};
     }
     return matrix;
@@ -132,6 +140,9 @@ PlannedFault Planner::fault(std::uint32_t rounds) {
             break;
         case Fault::EarlyReuse:
             planned.side = combination_.pattern == Pattern::VkToGl ? Side::Vulkan : Side::Gl;
+            break;
+        case Fault::WrongLayout:
+            planned.side = Side::Vulkan;
             break;
         default:
             break;

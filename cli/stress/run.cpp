@@ -71,6 +71,12 @@ void Runner::judge(std::uint64_t bad_before, std::uint64_t troubles_before, std:
         row_.by_ledger += ledger ? 1U : 0U;
         row_.by_both += pixels && ledger ? 1U : 0U;
         row_.unseen += pixels || ledger ? 0U : 1U;
+        FaultCounts& here = row_.at.at(static_cast<std::size_t>(fault_.side));
+        ++here.injected;
+        here.by_pixels += pixels ? 1U : 0U;
+        here.by_ledger += ledger ? 1U : 0U;
+        here.by_both += pixels && ledger ? 1U : 0U;
+        here.unseen += pixels || ledger ? 0U : 1U;
     }
     row_.failure = whyFailed({row_.combination.fault, fault_is_due_, row_.bad_texels - bad_before,
                               book_.troubles() - troubles_before, refused});

@@ -2,6 +2,7 @@
 // Runs one combination to its end and says what was seen. No OpenGL and no Vulkan type.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -18,6 +19,11 @@ struct Limit {
     double seconds = 0.0;        ///< 0: no limit
 };
 
+/// Faults of one kind at one place, and who saw them.
+struct FaultCounts {
+    std::uint64_t injected = 0, by_pixels = 0, by_ledger = 0, by_both = 0, unseen = 0;
+};
+
 /// What became of one combination.
 struct Row {
     Combination combination;
@@ -28,6 +34,7 @@ struct Row {
     std::uint64_t findings = 0;  ///< of the ledger, information left out
     // With a fault: how many were injected, and who saw them.
     std::uint64_t faults = 0, by_pixels = 0, by_ledger = 0, by_both = 0, unseen = 0;
+    std::array<FaultCounts, 2> at{};     ///< the same by side: what OpenGL, what Vulkan did wrong
     std::uint64_t refused = 0;           ///< signals that the renderer's own guard refused
     std::vector<std::string> told;       ///< the ledger's findings
     std::optional<std::string> failure;  ///< why the row is no success

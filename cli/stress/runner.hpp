@@ -38,7 +38,8 @@ class Runner {
     [[nodiscard]] Status settle();
     [[nodiscard]] Status check();
     void judge(std::uint64_t bad_before, std::uint64_t troubles_before, std::uint64_t refused);
-    void touches(ledger::ActorId by, const Turn& turn);
+    void touches(ledger::ActorId by, const Turn& turn, std::uint32_t wrong_layout = kNoSlot);
+    [[nodiscard]] std::uint32_t firstShared(const Turn& turn) const;
     void countDescriptors(Rebuild rebuild);
     void fail(const Error& error);
     void keepLog(const std::string& log);
@@ -60,9 +61,10 @@ class Runner {
     Rig rig_;
     Model model_;
     PlannedFault fault_;
-    std::uint64_t promised_ = 0;  // the last host-to-renderer value that OpenGL was to be followed by
-    std::uint64_t rescued_ = 0;   // up to here signals were given in the place of dropped ones
-    std::uint64_t to_drop_ = 0;   // the last that was armed to be dropped
+    std::uint64_t promised_ = 0;                   // the last host-to-renderer value that OpenGL was to be followed by
+    std::uint64_t rescued_ = 0;                    // up to here signals were given in the place of dropped ones
+    std::uint64_t to_drop_ = 0;                    // the last that was armed to be dropped
+    std::uint64_t next_signal_ = 0, swapped_ = 0;  // of a swap: the second's value, the first's
     std::uint64_t last_gl_wait_ = 0, last_vulkan_wait_ = 0;
     std::uint64_t builds_ = 0;  // of everything that the pattern makes anew
     std::uint64_t first_descriptors_ = 0, last_descriptors_ = 0;

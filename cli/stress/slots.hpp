@@ -38,11 +38,16 @@ struct ExportedSlot {
     std::uint64_t bytes = 0;  ///< of the whole allocation
 };
 
+inline constexpr std::uint32_t kNoSlot = 0xFFFFFFFF;
+/// Layouts by Vulkan's numbers: what shared images are in, and what a wrong acquire names (TRANSFER_SRC_OPTIMAL).
+inline constexpr std::uint32_t kSharedLayout = 1, kWrongLayout = 6;
+
 /// Semaphores of one submission.
 struct Hand {
-    bool waits = true;         ///< false: the queue does not wait
-    std::uint64_t wait = 0;    ///< value of host-to-renderer
-    std::uint64_t signal = 0;  ///< value of renderer-to-host; 0: none
+    bool waits = true;                     ///< false: the queue does not wait
+    std::uint64_t wait = 0;                ///< value of host-to-renderer
+    std::uint64_t signal = 0;              ///< value of renderer-to-host; 0: none
+    std::uint32_t wrong_layout = kNoSlot;  ///< the slot whose acquire names a layout that it is not in
 };
 
 /// Inputs of one turn, at most.

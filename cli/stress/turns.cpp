@@ -18,8 +18,20 @@ constexpr std::uint64_t kDropDeadlineNs = 250'000'000;  ///< of a wait for what 
 
 }  // namespace
 
-void Runner::touches(ledger::ActorId by, const Turn& turn) {
+void Runner::touches(ledger::ActorId by, const Turn& turn, std::uint32_t wrong_layout) {
     const std::uint32_t shared = course_.slots().shared();
+    // OpenGL has images in one layout for good; buffers have none.
+    std::vector<std::uint32_t> transferred;
+    if (by == kQueue && row_.combination.resource != Resource::Buffer) {
+        transferred = turn.inputs;
+        transferred.push_back(turn.output);
+        std::erase_if(transferred, [shared](std::uint32_t slot) { return slot >= shared; });
+    }
+    const auto layouts = [](std::uint32_t from) { return std::uint64_t{kSharedLayout} << 32U | from; };
+    for (const std::uint32_t slot : transferred) {
+        book_.event(EventKind::Acquire, by, slot, layouts(slot == wrong_layout ? kWrongLayout : kSharedLayout),
+                    ledger::kNoActor);
+    }
     for (std::size_t j = 0; j < turn.inputs.size(); ++j) {
         if (turn.inputs[j] < shared) {
             book_.event(EventKind::Read, by, turn.inputs[j], turn.input_versions[j]);
@@ -28,6 +40,17 @@ void Runner::touches(ledger::ActorId by, const Turn& turn) {
     if (turn.output < shared) {
         book_.event(EventKind::Write, by, turn.output, turn.version);
     }
+    for (const std::uint32_t slot : transferred) {
+        book_.event(EventKind::Release, by, slot, layouts(kSharedLayout), ledger::kNoActor);
+    }
+}
+
+/// The first shared slot that a turn touches.
+std::uint32_t Runner::firstShared(const Turn& turn) const {
+    const std::uint32_t shared = course_.slots().shared();
+    const auto input =
+        std::find_if(turn.inputs.begin(), turn.inputs.end(), [shared](std::uint32_t slot) { return slot < shared; });
+    return input != turn.inputs.end() ? *input : turn.output;
 }
 
 Signals Runner::signals() {
@@ -99,6 +122,11 @@ Status Runner::glTurn(const Round& round) {
         rig_.link().arm(fault_.kind, round.gl_signal, fault_.delay_us);
         to_drop_ = drop ? round.gl_signal : to_drop_;
     }
+    if (fault_.kind == Fault::Swap && (round.number == fault_.round || round.number == fault_.round + 1)) {
+        const std::uint64_t given = round.number == fault_.round ? next_signal_ : swapped_;
+        swapped_ = round.gl_signal;
+        rig_.link().arm(fault_.kind, round.gl_signal, 0, given);
+    }
     book_.fence(round.gl_signal);
     rig_.link().expectSignal(round.gl_signal);
     promised_ = round.gl_signal;
@@ -137,7 +165,10 @@ Status Runner::vulkanTurns(const Round& round) {
         if (hand.waits) {
             book_.event(EventKind::Wait, kQueue, kToRenderer, hand.wait);
         }
-        touches(kQueue, turn);
+        if (fault_.kind == Fault::WrongLayout && faultHere(round, Side::Vulkan) && j == 0) {
+            hand.wrong_layout = firstShared(turn);
+        }
+        touches(kQueue, turn, hand.wrong_layout);
         book_.event(EventKind::Signal, kQueue, kToHost, hand.signal);
         rig_.link().expectBack(hand.signal);
         if (Status status = rig_.vulkan().submit(turn, hand); !status) {
@@ -151,7 +182,7 @@ Status Runner::vulkanTurns(const Round& round) {
         const Turn again = course_.scribble(round.vulkan.back().output);
         book_.submit(kHost, kQueue);
         touches(kQueue, again);
-        if (Status status = rig_.vulkan().submit(again, {false, 0, 0}); !status) {
+        if (Status status = rig_.vulkan().submit(again, {false, 0, 0, kNoSlot}); !status) {
             return status;
         }
     }
@@ -168,6 +199,14 @@ Status Runner::rounds(const Epoch& epoch, std::uint32_t count, const std::functi
         std::vector<Round> planned;
         for (std::uint32_t i = 0; i < std::min(batch, count - done); ++i) {
             planned.push_back(course_.next(done + i));
+        }
+        // What the fault's partner will signal: it may be of the next batch.
+        const std::uint32_t after_batch = done + static_cast<std::uint32_t>(planned.size());
+        for (std::size_t i = 0; i < planned.size(); ++i) {
+            if (epoch.fault.kind == Fault::Swap && planned[i].number == epoch.fault.round) {
+                next_signal_ =
+                    i + 1 < planned.size() ? planned[i + 1].gl_signal : Course(course_).next(after_batch).gl_signal;
+            }
         }
         const bool vulkan_first = pattern == Pattern::WaitBeforeSignal || pattern == Pattern::VkToGl;
         for (const bool vulkan : {vulkan_first, !vulkan_first}) {

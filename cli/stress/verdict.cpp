@@ -22,9 +22,10 @@ std::optional<std::string> whyFailed(const Seen& seen) {
     if ((seen.fault == Fault::Drop || seen.fault == Fault::Duplicate) && pixels) {
         return fmt::format("{} wrong texels after a {}, which spoils none", seen.bad_texels, toString(seen.fault));
     }
-    const std::uint64_t doubled = seen.fault == Fault::Duplicate && seen.injected ? 1 : 0;
+    const bool late = seen.fault == Fault::Duplicate || seen.fault == Fault::Swap;
+    const std::uint64_t doubled = late && seen.injected ? 1 : 0;
     if (seen.refused != doubled) {
-        return fmt::format("the renderer's guard refused {} signals, {} were given twice", seen.refused, doubled);
+        return fmt::format("the renderer's guard refused {} signals, {} were given too late", seen.refused, doubled);
     }
     if (seen.injected && !pixels && !ledger) {
         return fmt::format("the {} was seen by nobody", toString(seen.fault));

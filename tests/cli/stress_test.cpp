@@ -26,7 +26,7 @@ TEST_F(Stress, WrongValuesAreAnsweredWithTheRightOnes) {
     };
     EXPECT_THAT(answer("--pattern round"),
                 AllOf(HasSubstr("--pattern: expected one of gl-to-vk"), HasSubstr("found \"round\"")));
-    EXPECT_THAT(answer("--fault swap"), HasSubstr("early-reuse, all, found \"swap\""));
+    EXPECT_THAT(answer("--fault shuffle"), HasSubstr("wrong-layout, all, found \"shuffle\""));
     EXPECT_THAT(answer("--handoffs 0"), HasSubstr("--handoffs: expected a whole number above 0, found \"0\""));
     EXPECT_THAT(answer("--seconds -1"), HasSubstr("--seconds: expected seconds above 0"));
     EXPECT_THAT(answer("--seconds 1 --handoffs 1"), HasSubstr("excludes"));

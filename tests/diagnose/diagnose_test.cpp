@@ -11,6 +11,7 @@
 #include "../cli/program.hpp"
 #include "logs.hpp"
 #include "sluice/ledger/finding.hpp"
+#include "sluice/ledger/log.hpp"
 
 namespace sluice::test {
 namespace {
@@ -79,6 +80,27 @@ TEST_F(Diagnose, WrongCommandLinesAreOneWithNothingOnStdout) {
         EXPECT_FALSE(outcome.err.empty()) << words;
     }
     EXPECT_THAT(files(), ElementsAre("a.log"));
+}
+
+TEST_F(Diagnose, AQueueThatNobodyHeardIsNotClean) {
+    auto created = ledger::LogWriter::create(at("mute.log").string());
+    ASSERT_TRUE(created);
+    ledger::LogWriter& writer = *created.value();
+    writer.declareActor(0, ledger::ActorKind::GlContext, "gl");
+    writer.declareActor(1, ledger::ActorKind::VulkanQueue, "the queue");
+    writer.declareResource(0, "colour", 1, ledger::kNoActor);
+    ledger::Event write;
+    write.kind = ledger::EventKind::Write;
+    write.actor = 0;
+    write.object = 0;
+    write.frame = 1;
+    writer.record(write);
+    ASSERT_TRUE(writer.close());
+    const Outcome outcome = run("diagnose mute.log");
+    EXPECT_EQ(outcome.code, 0) << outcome.err;
+    EXPECT_THAT(outcome.out, HasSubstr("mute.log: clean as far as it was told\n"));
+    EXPECT_THAT(outcome.out, HasSubstr("\nnot judged: the queue: is declared and does nothing here\n"));
+    EXPECT_EQ(Json::parse(run("diagnose mute.log --json").out).at("unheard").size(), 1U);
 }
 
 TEST_F(Diagnose, FramesBeyondTheLogAreOneAndSaidWithWhatItHas) {

@@ -152,6 +152,79 @@ TEST(LedgerRace, ABridgesSignalIsNamedAndNotTheFenceThatItWaitsFor) {
     }
 }
 
+/// gl's picture goes through the queue back to gl; the queue does not wait for it when `skip` says so.
+void echo(Script& s, std::uint64_t frame, bool skip, Verdict verdict) {
+    s.event(EventKind::Frame, kGl, kNoObject, frame);
+    s.event(EventKind::Frame, kQueue, kNoObject, frame);
+    s.write(kGl, kColour, frame);
+    s.signal(kGl, kHost, frame);
+    if (!skip) {
+        s.wait(kQueue, kHost, frame);
+    }
+    s.read(kQueue, kColour, frame);
+    s.write(kQueue, kDepth, frame);
+    s.signal(kQueue, kDone, frame);
+    s.wait(kGl, kDone, frame);
+    s.read(kGl, kDepth, frame);
+    s.witness(kGl, kDepth, frame, verdict);
+}
+
+TEST(LedgerRace, WrongPixelsOfARacedInputAreNotTheDriversFault) {
+    Script s;
+    echo(s, 1, false, Verdict::Fresh);
+    echo(s, 2, true, Verdict::Stale);
+    echo(s, 3, false, Verdict::Fresh);
+    s.ledger.finish(End::Closed);
+    EXPECT_THAT(kinds(s.ledger), testing::Contains(FindingKind::ReadAfterWrite)) << tell(s.ledger);
+    EXPECT_THAT(kinds(s.ledger), testing::Not(testing::Contains(FindingKind::DriverReordered))) << tell(s.ledger);
+    // In the next frame the race is no excuse any more.
+    echo(s, 4, false, Verdict::Stale);
+    s.ledger.finish(End::Closed);
+    EXPECT_THAT(kinds(s.ledger), testing::Contains(FindingKind::DriverReordered)) << tell(s.ledger);
+}
+
+TEST(LedgerBounds, AnActorThatStandsStillForeverIsLostAndThatIsSaid) {
+    LedgerOptions options;
+    options.max_held = 1000;
+    Script s(options);
+    s.write(kGl, kColour, 1);
+    s.wait(kEngine, kDone, 99);   // nobody ever signals it
+    s.wait(kBridge, kBinary, 0);  // nor this, and nothing more comes from the bridge
+    std::size_t peak = 0;
+    for (std::uint64_t i = 1; i <= 20'000; ++i) {
+        s.submit(kEngine, kGl);
+        s.read(kEngine, kDepth);
+        s.write(kGl, kColour, i);
+        s.signal(kGl, kHost, i);
+        // A fence of each frame is declared anew.
+        s.ledger.declareSync(kFence, SyncKind::Fence, "fence", 0, 0);
+        s.signal(kQueue, kFence, 1);
+        peak = i == 4000 ? s.ledger.memoryBytes() : peak;
+    }
+    EXPECT_LE(s.ledger.memoryBytes(), peak + (std::size_t{64} << 10U));
+    s.ledger.finish(End::Closed);
+    const auto unheard = s.ledger.unheard();
+    ASSERT_GE(unheard.size(), 2U) << "the engine's thread, and gl, which it feeds";
+    EXPECT_THAT(tell(s.ledger), testing::Not(HasSubstr("race")));
+    std::string why;
+    for (const Unheard& one : unheard) {
+        why += one.why + "\n";
+    }
+    EXPECT_THAT(why, HasSubstr("engine waits for renderer-to-host >= 99"));
+    EXPECT_THAT(why, HasSubstr("1000 events were kept back for it"));
+}
+
+TEST(LedgerBounds, AQueueThatWasNeverHeardIsSaid) {
+    Script s;
+    s.write(kGl, kColour, 1);
+    s.event(EventKind::ActorEnd, kQueue, kNoObject, 0, 0, kUntold);
+    std::string why;
+    for (const Unheard& one : s.ledger.unheard()) {
+        why += one.why + "; ";
+    }
+    EXPECT_EQ(why, "queue: told nothing; queue2: is declared and does nothing here; ");
+}
+
 TEST(LedgerRace, RacesThatNobodyEverSignalsForCostNoMemory) {
     Script s;
     for (ObjectId resource = 10; resource < 200; ++resource) {

@@ -93,6 +93,27 @@ INSTANTIATE_TEST_SUITE_P(Stress, EveryFault,
                                            Fault::WrongValue, Fault::EarlyReuse),
                          wordOf<Fault>);
 
+/// They come through the same doors as the others: one backend is enough.
+TEST(MoreFaults, SwappedSignalsAndWrongLayoutsAreSeenByTheLedgerInEveryPattern) {
+    for (const Fault fault : {Fault::Swap, Fault::WrongLayout}) {
+        Options options;
+        options.fault = fault;
+        options.resource = Resource::R32F;
+        options.backend = Backend::Bridged;
+        options.topology = Topology::BridgeThread;
+        for (const Combination& one : drivable(options)) {
+            const Row row = runCombination(one, kSeed, {1, 0.0}, "", never);
+            EXPECT_FALSE(row.failure) << describe(row);
+            EXPECT_GE(row.faults, 1U);
+            EXPECT_EQ(row.by_ledger, row.faults) << describe(row);
+            EXPECT_EQ(row.refused, fault == Fault::Swap ? row.faults : 0U);
+            EXPECT_EQ(row.at[fault == Fault::Swap ? 0 : 1].by_ledger, row.faults);
+            const char* id = fault == Fault::Swap ? "timeline-not-increasing" : "layout-mismatch";
+            EXPECT_NE(describe(row).find(id), std::string::npos) << describe(row);
+        }
+    }
+}
+
 TEST(Pixels, SeeAReadThatDoesNotWait) {
     // A race is lost only sometimes: enough tries, no rate.
     const Combination one{Pattern::VkToGl, Backend::Finish, Resource::Colour, Topology::OneThread, Fault::SkipWait};

@@ -35,7 +35,8 @@ function drawHeader() {
   byId('subject').textContent = `${D.log}: ${count(D.totalEvents, 'event', 'events')} of ` +
     `${count(actors.length, 'actor', 'actors')} in ${count(D.totalFrames, 'frame', 'frames')}${part}` +
     (D.closed ? '' : '; the log was cut off, not closed') +
-    (D.dropped > 0 ? `; ${count(D.dropped, 'further finding', 'further findings')} not kept` : '');
+    (D.dropped > 0 ? `; ${count(D.dropped, 'further finding', 'further findings')} not kept` : '') +
+    (D.unheard.length > 0 ? `; not judged: ${D.unheard.join('; ')}` : '');
 }
 
 // Few frames do not fill the strip.

@@ -80,8 +80,9 @@ struct VkSide::State {
     Status createCommands();
     Status createSlots();
     Status createTimelines();
-    void transfer(VkCommandBuffer buffer, std::span<const std::uint32_t> slots, bool acquire) const;
-    Status record(VkCommandBuffer buffer, const Turn& turn);
+    void transfer(VkCommandBuffer buffer, std::span<const std::uint32_t> slots, bool acquire,
+                  std::uint32_t wrong_layout = kNoSlot) const;
+    Status record(VkCommandBuffer buffer, const Turn& turn, const Hand& hand);
 };
 
 Status VkSide::State::createCommands() {
@@ -155,7 +156,8 @@ Status VkSide::State::createTimelines() {
 }
 
 /// Between the two APIs for shared slots; within the queue for the side's own.
-void VkSide::State::transfer(VkCommandBuffer buffer, std::span<const std::uint32_t> slots, bool acquire) const {
+void VkSide::State::transfer(VkCommandBuffer buffer, std::span<const std::uint32_t> slots, bool acquire,
+                             std::uint32_t wrong_layout) const {
     for (const std::uint32_t slot : slots) {
         const bool shared = slot < storage.slots.shared();
         const std::uint32_t external = shared ? VK_QUEUE_FAMILY_EXTERNAL : VK_QUEUE_FAMILY_IGNORED;
@@ -163,8 +165,9 @@ void VkSide::State::transfer(VkCommandBuffer buffer, std::span<const std::uint32
         const std::uint32_t from = acquire ? external : here;
         const std::uint32_t to = acquire ? here : external;
         if (!isBuffer()) {
-            vk::fullBarrier(*device, buffer, images[slot].image(), images[slot].aspect(), VK_IMAGE_LAYOUT_GENERAL,
-                            VK_IMAGE_LAYOUT_GENERAL, from, to);
+            const auto old = slot == wrong_layout ? static_cast<VkImageLayout>(kWrongLayout) : VK_IMAGE_LAYOUT_GENERAL;
+            vk::fullBarrier(*device, buffer, images[slot].image(), images[slot].aspect(), old, VK_IMAGE_LAYOUT_GENERAL,
+                            from, to);
             continue;
         }
         auto barrier = vkStruct<VkBufferMemoryBarrier2>(VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2);
@@ -182,7 +185,7 @@ void VkSide::State::transfer(VkCommandBuffer buffer, std::span<const std::uint32
     }
 }
 
-Status VkSide::State::record(VkCommandBuffer buffer, const Turn& turn) {
+Status VkSide::State::record(VkCommandBuffer buffer, const Turn& turn, const Hand& hand) {
     auto begin = vkStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     if (const VkResult result = device->fn.vkBeginCommandBuffer(buffer, &begin); result != VK_SUCCESS) {
@@ -190,7 +193,7 @@ Status VkSide::State::record(VkCommandBuffer buffer, const Turn& turn) {
     }
     std::vector<std::uint32_t> touched = turn.inputs;
     touched.push_back(turn.output);
-    transfer(buffer, touched, true);
+    transfer(buffer, touched, true, hand.wrong_layout);
     // Bindings without an input show something else that is readable, and the shader does not read it.
     const std::uint32_t other = storage.slots.own(turn.output == storage.slots.own(0) ? 1 : 0);
     std::array<SlotRef, kMaxInputs> inputs{};
@@ -261,7 +264,7 @@ Status VkSide::submit(const Turn& turn, const Hand& hand) {
                      "a submission of long ago has not ended within 10 s", ""};
     }
     VkCommandBuffer commands = s.commands.at(index);
-    if (Status status = s.record(commands, turn); !status) {
+    if (Status status = s.record(commands, turn, hand); !status) {
         return status;
     }
     Result<vk::SubmitSemaphores> semaphores = s.timeline->forSubmit(hand.wait, hand.signal, !hand.waits);

@@ -60,7 +60,10 @@ void Ledger::State::access(Actor& by, const Item& item) {
     if (event.kind == EventKind::Read) {
         ReadMark& mark = markOf(resource, by);
         settleWitness(resource, mark);
-        mark = ReadMark{by.now(), event, true, broken || stale, broken, std::nullopt};
+        mark = ReadMark{by.now(), event, true, broken || stale, broken, resource.raced_input, std::nullopt};
+        if (stale || resource.raced_input) {
+            by.raced_in = event.frame;
+        }
     } else if (resource.behind && by.slot == resource.behind->actor) {
         resource.behind->last = by.now();
         resource.behind->last_event = event;
@@ -69,6 +72,7 @@ void Ledger::State::access(Actor& by, const Item& item) {
         resource.write_event = event;
         if (event.kind == EventKind::Write) {
             resource.content = event;
+            resource.raced_input = by.raced_in == event.frame;
         }
     }
     if (event.kind == EventKind::Release) {
@@ -153,7 +157,7 @@ void Ledger::State::settleWitness(Resource& resource, ReadMark& mark) {
                 resource.name, name(event.actor), event.frame);
             found->remedy = fmt::format("Mend the race on {} all the same.", resource.name);
         }
-    } else if (verdict != Verdict::Fresh && !mark.broken) {
+    } else if (verdict != Verdict::Fresh && !mark.broken && !mark.raced_input) {
         if (auto* found = report(FindingKind::DriverReordered, resource.id, mark.event, event)) {
             found->sentence = fmt::format(
                 "{} reads {} in frame {} in good order, yet the pixels are {} (version {} found, {} "

@@ -5,20 +5,20 @@
 namespace sluice::ledger {
 namespace {
 
-/// The slot for a new object under `id`. Its predecessor keeps its own while queued events may still mean it.
+/// The slot for a new object under `id`. Its predecessor keeps its own while events that are kept back mean it.
 template <typename Object>
-Slot takeSlot(std::deque<Object>& objects, IdMap& map, std::vector<Slot>& retired, ObjectId id, bool queued) {
+Slot takeSlot(std::deque<Object>& objects, IdMap& map, std::vector<Slot>& free, ObjectId id) {
     Slot slot = map.find(id);
-    if (slot != kNoSlot && !queued) {
+    if (slot != kNoSlot && objects[slot].kept_back == 0) {
         objects[slot] = Object{};
         return slot;
     }
     if (slot != kNoSlot) {
-        retired.push_back(slot);
+        objects[slot].retired = true;
     }
-    if (!queued && !retired.empty()) {
-        slot = retired.back();
-        retired.pop_back();
+    if (!free.empty()) {
+        slot = free.back();
+        free.pop_back();
         objects[slot] = Object{};
     } else {
         slot = static_cast<Slot>(objects.size());
@@ -50,12 +50,12 @@ void Ledger::declareActor(ActorId id, ActorKind kind, std::string_view name) {
     actor.kind = kind;
     actor.name = name;
     actor.ended = false;
-    actor.untold = false;
+    actor.untold = actor.lost = false;
 }
 
 void Ledger::declareSync(ObjectId id, SyncKind kind, std::string_view name, std::uint64_t initial,
                          std::uint16_t flags) {
-    const Slot slot = takeSlot(state_->syncs, state_->sync_slots, state_->retired_syncs, id, state_->held != 0);
+    const Slot slot = takeSlot(state_->syncs, state_->sync_slots, state_->free_syncs, id);
     Sync& sync = state_->syncs[slot];
     sync.id = id;
     sync.kind = kind;
@@ -71,8 +71,7 @@ void Ledger::declareResource(ObjectId id, std::string_view name, std::uint32_t l
             state_->settleWitness(state_->resources[old], mark);
         }
     }
-    const Slot slot =
-        takeSlot(state_->resources, state_->resource_slots, state_->retired_resources, id, state_->held != 0);
+    const Slot slot = takeSlot(state_->resources, state_->resource_slots, state_->free_resources, id);
     Resource& resource = state_->resources[slot];
     resource.id = id;
     resource.name = name;
@@ -132,6 +131,34 @@ Slot Ledger::State::objectSlot(const Event& event) {
         default:
             return kNoSlot;
     }
+}
+
+void Ledger::State::keepBack(const Item& item) {
+    if (std::uint32_t* count = keptBack(item)) {
+        ++*count;
+    }
+}
+
+void Ledger::State::letGo(const Item& item) {
+    std::uint32_t* count = keptBack(item);
+    if (count == nullptr || --*count != 0) {
+        return;
+    }
+    if (isSync(item.event) ? syncs[item.slot].retired : resources[item.slot].retired) {
+        (isSync(item.event) ? free_syncs : free_resources).push_back(item.slot);
+    }
+}
+
+bool Ledger::State::isSync(const Event& event) {
+    return event.kind == EventKind::Signal || event.kind == EventKind::Wait || event.kind == EventKind::WaitBegin ||
+           (event.kind == EventKind::Destroy && event.aux == static_cast<std::uint16_t>(ObjectClass::Sync));
+}
+
+std::uint32_t* Ledger::State::keptBack(const Item& item) {
+    if (item.slot == kNoSlot || item.event.kind == EventKind::Submit) {
+        return nullptr;
+    }
+    return isSync(item.event) ? &syncs[item.slot].kept_back : &resources[item.slot].kept_back;
 }
 
 std::size_t Ledger::State::bytes() const {

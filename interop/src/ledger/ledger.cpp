@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include <fmt/format.h>
+
 #include "state.hpp"
 
 namespace sluice::ledger {
@@ -20,6 +22,10 @@ void Ledger::State::record(Event event) {
     }
     // At once, even for an actor that is held.
     by.untold |= event.kind == EventKind::ActorEnd && (event.flags & kUntold) != 0;
+    by.told += event.kind == EventKind::ActorEnd ? 0U : 1U;
+    if (by.lost) {
+        return;
+    }
     Item item{event, objectSlot(event), nullptr, false};
     switch (event.kind) {
         // Not part of the order: judged as they come, even from an actor that is held.
@@ -97,6 +103,9 @@ void Ledger::State::submit(Actor& from, Item item) {
     if (&stream == &from) {
         return;
     }
+    if (stream.lost) {
+        return;
+    }
     if (std::find(stream.fed_by.begin(), stream.fed_by.end(), from.slot) == stream.fed_by.end()) {
         stream.fed_by.push_back(from.slot);
     }
@@ -120,8 +129,33 @@ void Ledger::State::submit(Actor& from, Item item) {
 }
 
 void Ledger::State::hold(Actor& who, Item item) {
-    held += who.queue.empty() ? 1U : 0U;
+    if (who.lost) {
+        return;
+    }
+    keepBack(item);
     who.queue.push_back(std::move(item));
+    if (who.queue.size() > options.max_held) {
+        lose(who);
+    }
+}
+
+/// What it fed would be judged without the order of its submissions, so that is lost with it. What waits for its
+/// signals stands still, and in the end is lost as well.
+void Ledger::State::lose(Actor& who) {
+    const std::vector<std::string> chain = chainLines(who);
+    who.lost = true;
+    who.lost_at = chain.empty() ? std::string("stands still") : chain.front();
+    who.lost_since = who.queue.empty() ? who.frame : who.queue.front().event.frame;
+    for (const Item& item : who.queue) {
+        letGo(item);
+    }
+    who.queue.clear();
+    who.queue.shrink_to_fit();
+    for (Actor& stream : actors) {
+        if (!stream.lost && std::find(stream.fed_by.begin(), stream.fed_by.end(), who.slot) != stream.fed_by.end()) {
+            lose(stream);
+        }
+    }
 }
 
 void Ledger::State::runHeld() {
@@ -129,8 +163,8 @@ void Ledger::State::runHeld() {
         Actor& who = actors[runnable.back()];
         runnable.pop_back();
         while (!who.queue.empty() && execute(who, who.queue.front())) {
+            letGo(who.queue.front());
             who.queue.pop_front();
-            held -= who.queue.empty() ? 1U : 0U;
         }
     }
 }
@@ -176,6 +210,23 @@ std::uint64_t Ledger::eventsSeen() const {
 }
 std::size_t Ledger::memoryBytes() const {
     return state_->bytes();
+}
+
+std::vector<Unheard> Ledger::unheard() const {
+    std::vector<Unheard> all;
+    for (const Actor& actor : state_->actors) {
+        if (actor.lost) {
+            all.push_back({actor.id, actor.lost_since,
+                           fmt::format("{}; {} events were kept back for it, further ones were not judged",
+                                       actor.lost_at, state_->options.max_held)});
+        } else if (actor.untold) {
+            all.push_back({actor.id, actor.told == 0 ? 0 : actor.frame + 1,
+                           actor.name + (actor.told == 0 ? ": told nothing" : ": told nothing more")});
+        } else if (actor.told == 0 && !actor.isThread() && actor.kind != ActorKind::Process) {
+            all.push_back({actor.id, 0, actor.name + ": is declared and does nothing here"});
+        }
+    }
+    return all;
 }
 
 std::vector<Blocked> Ledger::blocked() const {

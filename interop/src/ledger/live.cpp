@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "sluice/ledger/live.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace sluice::ledger {
@@ -67,7 +68,12 @@ void LiveLedger::leaveUnchecked(Unchecked what) {
 
 std::optional<Unchecked> LiveLedger::unchecked() const {
     const std::lock_guard lock(mutex_);
-    return unchecked_;
+    if (unchecked_) {
+        return unchecked_;
+    }
+    const std::vector<Unheard> unheard = ledger_.unheard();
+    const auto lost = std::ranges::find_if(unheard, [](const Unheard& one) { return one.since_frame != 0; });
+    return lost == unheard.end() ? std::nullopt : std::optional(Unchecked{lost->since_frame, lost->why});
 }
 
 Status LiveLedger::finish(End end) {

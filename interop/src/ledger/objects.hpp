@@ -84,7 +84,9 @@ struct Sync {
     std::vector<Slot> waiters;  ///< actors held here
     std::optional<Event> consumed, destroyed;
     Epoch consumed_at;
-    bool blamed = false;  ///< a finding already explains why a wait on it hangs
+    std::uint32_t kept_back = 0;  ///< events of held actors that mean it
+    bool retired = false;         ///< declared anew meanwhile
+    bool blamed = false;          ///< a finding already explains why a wait on it hangs
 
     [[nodiscard]] bool listedOnly() const { return (flags & kListedOnly) != 0; }
 };
@@ -96,6 +98,7 @@ struct ReadMark {
     bool active = true;            ///< no write has followed
     bool broken = false;           ///< the model has something against it
     bool lucky = false;            ///< namely an order or a visibility that is missing: right pixels were luck
+    bool raced_input = false;      ///< what was read was made from something that its maker had in a race
     std::optional<Event> witness;  ///< its pixels, while a write that races with it may still turn up
 };
 
@@ -141,7 +144,9 @@ struct Behind {
 struct Resource {
     ObjectId id = kNoObject;
     std::string name;
-    std::uint32_t layout = 0;  ///< 0: not known
+    std::uint32_t kept_back = 0;  ///< events of held actors that mean it
+    bool retired = false;         ///< declared anew meanwhile
+    std::uint32_t layout = 0;     ///< 0: not known
     Event layout_event;
     ActorId owner = kNoActor;  ///< kNoActor: free
     std::optional<Release> release;
@@ -151,6 +156,7 @@ struct Resource {
     Epoch write_at;  ///< last write, transition or transfer
     Event write_event;
     std::optional<Event> content;  ///< last Write
+    bool raced_input = false;      ///< of that content: its maker had a race in the same frame, or read such content
     std::vector<ReadMark> reads;   ///< one per actor
     std::vector<Forgiven> forgiven;
     std::optional<Event> destroyed;
@@ -202,6 +208,11 @@ struct Actor {
     std::uint64_t tick = 1;
     Knowledge know;  ///< of others; its own past goes without saying
     std::uint32_t frame = 0;
+    std::optional<std::uint32_t> raced_in;  ///< the last frame in which what it read may have been wrong
+    std::uint64_t told = 0;                 ///< events, its end left out
+    bool lost = false;                      ///< stood still for too long: nothing more of it is judged
+    std::string lost_at;                    ///< where
+    std::uint32_t lost_since = 0;           ///< frame
     std::vector<Named> names;
     std::vector<Slot> fed_by;  ///< who has submitted to it
     std::deque<Item> queue;    ///< not empty: held at its front

@@ -68,6 +68,8 @@ void Ledger::State::race(FindingKind kind, Actor& by, Resource& resource, Epoch 
             open_races.push_back(one);
         }
     }
+    by.raced_in = second.frame;
+    actors[at.actor].raced_in = first.frame;
     // From here on the two are taken to be ordered, and what hangs on the state that they left to chance is not judged.
     const auto same = std::find_if(resource.forgiven.begin(), resource.forgiven.end(), [&](const Forgiven& other) {
         return other.before.actor == at.actor && other.after.actor == by.slot;

@@ -16,9 +16,8 @@ struct Ledger::State {
     std::deque<Sync> syncs;
     std::deque<Resource> resources;
     IdMap actor_slots, sync_slots, resource_slots;
-    std::vector<Slot> retired_syncs, retired_resources;
-    std::vector<Slot> runnable;  ///< held actors whose front may have become possible
-    std::size_t held = 0;
+    std::vector<Slot> free_syncs, free_resources;  ///< of objects that were declared anew
+    std::vector<Slot> runnable;                    ///< held actors whose front may have become possible
     std::uint64_t events = 0;
     std::uint64_t candidate_serial = 0;
 
@@ -44,6 +43,13 @@ struct Ledger::State {
     void submit(Actor& from, Item item);
     bool execute(Actor& by, Item& item);
     void hold(Actor& who, Item item);
+    void lose(Actor& who);
+
+    // declare.cpp: objects that events of held actors still mean
+    void keepBack(const Item& item);
+    void letGo(const Item& item);
+    [[nodiscard]] static bool isSync(const Event& event);
+    [[nodiscard]] std::uint32_t* keptBack(const Item& item);
     void runHeld();
     [[nodiscard]] std::size_t bytes() const;
 

@@ -35,6 +35,16 @@ struct LedgerOptions {
     /// Signals of one sync that are kept before those are looked for that may be forgotten. The verdict does not depend
     /// on it: 2 in tests looks often, SIZE_MAX never.
     std::size_t prune_above = 64;
+    /// Events that wait behind an actor that stands still. Beyond them it is lost: nothing more of it, nor of what it
+    /// feeds, is judged, and unheard() says so.
+    std::size_t max_held = 100'000;
+};
+
+/// An actor for which findings() does not speak, at all or from a frame on.
+struct Unheard {
+    ActorId actor = kNoActor;
+    std::uint32_t since_frame = 0;  ///< 0: from the first
+    std::string why;                ///< "renderer's queue: ..."
 };
 
 /// An actor that stands still, for the watchdog and for the end of a log.
@@ -74,6 +84,9 @@ class Ledger {
 
     [[nodiscard]] const std::vector<Finding>& findings() const;
     [[nodiscard]] std::uint64_t findingsDropped() const;
+    /// Contexts and queues that were declared and did nothing, actors whose end says that they were not told, and those
+    /// that stood still for too long.
+    [[nodiscard]] std::vector<Unheard> unheard() const;
     [[nodiscard]] std::vector<Blocked> blocked() const;
     /// Who waits for whom from `actor` on, one line each, with names and values: "queue waits for host-to-renderer >=
     /// 7, which has reached 5; gl context would signal it, but waits for ...".
