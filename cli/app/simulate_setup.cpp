@@ -106,23 +106,27 @@ Result<simulator::Particles> startOfFluid(const scene::Simulation& simulation, c
                                  expected, simulation.radius),
                      "make /simulation/radius larger or the boxes smaller"};
     }
-    simulator::Particles particles;
+    simulator::Particles all;
     std::uint64_t number = 0;
     for (const scene::FluidBox& box : simulation.fluid) {
         const auto count = sites(box, spacing);
         for (std::uint64_t i = 0; i < count[0] * count[1] * count[2]; ++i) {
             const std::array<std::uint64_t, 3> site{i % count[0], i / count[0] % count[1], i / count[0] / count[1]};
-            simulator::Vec3 x{};
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                x.at(axis) =
+                all.position.push_back(
                     static_cast<float>(double{box.low.at(axis)} + spacing * (static_cast<double>(site.at(axis)) + 0.5) +
-                                       double{simulation.jitter} * double{simulation.radius} * random(seed, number++));
+                                       double{simulation.jitter} * double{simulation.radius} * random(seed, number++)));
+                all.velocity.push_back(box.velocity.at(axis));
             }
-            // Jitter may take half a radius from what a particle at a wall has.
-            if (simulator::clearance(setup, x) >= 0.5 * double{simulation.radius}) {
-                particles.position.insert(particles.position.end(), x.begin(), x.end());
-                particles.velocity.insert(particles.velocity.end(), box.velocity.begin(), box.velocity.end());
-            }
+        }
+    }
+    // Jitter may take half a radius from what a particle at a wall has.
+    const std::vector<double> clear = simulator::clearances(setup, all.position);
+    simulator::Particles particles;
+    for (std::size_t i = 0; i < all.position.size(); ++i) {
+        if (clear[i / 3] >= 0.5 * double{simulation.radius}) {
+            particles.position.push_back(all.position[i]);
+            particles.velocity.push_back(all.velocity[i]);
         }
     }
     if (particles.position.empty()) {

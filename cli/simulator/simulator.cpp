@@ -38,16 +38,22 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
 
 }  // namespace
 
-double clearance(const Setup& setup, const Vec3& x) {
-    double nearest = 1e300;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        nearest =
-            std::min({nearest, double{x[axis]} - double{setup.low[axis]}, double{setup.high[axis]} - double{x[axis]}});
+std::vector<double> clearances(const Setup& setup, const std::vector<float>& positions) {
+    const vk::SimulationSettings settings = settingsOf(setup);
+    std::vector<double> all;
+    for (std::size_t i = 0; i < positions.size(); i += 3) {
+        const Vec3 x{positions[i], positions[i + 1], positions[i + 2]};
+        double nearest = 1e300;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            nearest = std::min({nearest, double{x.at(axis)} - double{setup.low.at(axis)},
+                                double{setup.high.at(axis)} - double{x.at(axis)}});
+        }
+        for (const vk::Solid& solid : settings.solids) {
+            nearest = std::min(nearest, vk::distanceTo(solid, x));
+        }
+        all.push_back(nearest);
     }
-    for (const vk::Solid& solid : settingsOf(setup).solids) {
-        nearest = std::min(nearest, vk::distanceTo(solid, x));
-    }
-    return nearest;
+    return all;
 }
 
 struct Simulator::State {

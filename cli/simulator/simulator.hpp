@@ -58,8 +58,9 @@ struct Advance {
     double greatest_density = 0.0;
 };
 
-/// Distance from `x` to the nearest solid or face of the domain, metres; negative where no fluid may be.
-[[nodiscard]] double clearance(const Setup& setup, const Vec3& x);
+/// Distance from each position (triples) to the nearest solid or face of the domain, metres; negative where no fluid
+/// may be.
+[[nodiscard]] std::vector<double> clearances(const Setup& setup, const std::vector<float>& positions);
 
 /// The device and the solver on it. Errors of create: INVALID_ARGUMENT when the setup is wrong, else the device's.
 class Simulator {
