@@ -1,10 +1,7 @@
 // SPDX-License-Identifier: MIT
 // sluice-renderer: the process that an isolated renderer plugin runs in. Started by a host, never by hand.
 #include <dlfcn.h>
-#include <sys/prctl.h>
-#include <unistd.h>
 
-#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
@@ -15,19 +12,9 @@
 
 namespace {
 
-constexpr int kChannelFd = 3;  // host_gl/src/isolate/child.cpp
-
 int fail(std::string_view what, const char* why) {
     (void)std::fprintf(stderr, "sluice-renderer: %.*s: %s\n", static_cast<int>(what.size()), what.data(), why);
     return 1;
-}
-
-/// This process ends when the host does, even inside a driver that hangs. False: the host has ended already.
-bool endWithHost(std::string_view host) {
-    int pid = 0;
-    std::from_chars(host.data(), host.data() + host.size(), pid);
-    (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    return ::getppid() == pid;
 }
 
 int run(const char* plugin) {
@@ -41,7 +28,7 @@ int run(const char* plugin) {
     if (api == nullptr) {
         return fail(plugin, "is no Sluice renderer of this ABI");
     }
-    const sluice::isolate::Channel channel{sluice::UniqueFd(kChannelFd)};
+    const sluice::isolate::Channel channel{sluice::UniqueFd(sluice::isolate::kChannelFd)};
     if (const sluice::Status served = sluice::isolate::serve(*api, channel); !served) {
         return fail("host", served.error().message().c_str());
     }
@@ -57,7 +44,7 @@ int main(int argc, char** argv) {
     // Ctrl-C goes to the whole group of processes. The host takes it, finishes its file and then closes the channel.
     (void)std::signal(SIGINT, SIG_IGN);
     try {
-        return endWithHost(argv[2]) ? run(argv[3]) : 1;
+        return sluice::isolate::endWithHost(argv[2]) ? run(argv[3]) : 1;
     } catch (const std::exception& thrown) {
         return fail("internal fault", thrown.what());
     }

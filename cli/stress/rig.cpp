@@ -3,11 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <iterator>
 #include <utility>
 
 #include "sluice/negotiate.hpp"
+#include "stress/process/side.hpp"
 
 namespace sluice::stress {
 namespace {
@@ -61,7 +60,8 @@ Status Rig::createSides() {
         return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("--resource {}", toString(combination_.resource)), missing,
                      ""};
     }
-    auto vulkan = VkSide::create(gl_->capabilities());
+    auto vulkan = combination_.topology == Topology::TwoProcesses ? startVkProcess(gl_->capabilities())
+                                                                  : VkSide::create(gl_->capabilities());
     if (!vulkan) {
         return vulkan.error();
     }
@@ -124,12 +124,6 @@ Status Rig::build(Rebuild rebuild, std::uint32_t width, std::uint32_t height) {
     book_->declare(storage_);
     link_ = std::make_unique<Link>(*vulkan_, book_, storage_.slots.shape.relay);
     return gl_->makeTimeline(combination_.backend, combination_.topology, link_->api(), link_->renderer());
-}
-
-std::uint64_t openDescriptors() {
-    std::error_code ignored;
-    const std::filesystem::directory_iterator open("/proc/self/fd", ignored);
-    return static_cast<std::uint64_t>(std::distance(begin(open), end(open)));
 }
 
 }  // namespace sluice::stress

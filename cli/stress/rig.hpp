@@ -47,7 +47,4 @@ class Rig {
     std::unique_ptr<Link> link_;
 };
 
-/// Descriptors that this process has open.
-[[nodiscard]] std::uint64_t openDescriptors();
-
 }  // namespace sluice::stress

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "stress/descriptors.hpp"
 #include "stress/runner.hpp"
 #include "stress/verdict.hpp"
 
@@ -93,7 +94,9 @@ Status Runner::epoch(const Epoch& epoch, std::uint64_t most_rounds, const std::f
         }
         course_.rebuilt();
         promised_ = rescued_ = to_drop_ = last_gl_wait_ = last_vulkan_wait_ = 0;
-        countDescriptors(epoch.rebuild);
+        if (Status status = countDescriptors(epoch.rebuild); !status) {
+            return status;
+        }
     } else if (epoch.fresh) {
         course_.restart();
     }
@@ -124,17 +127,23 @@ Status Runner::epoch(const Epoch& epoch, std::uint64_t most_rounds, const std::f
 }
 
 /// What drivers open once for the whole process is there after the second build; from then on not one may be added.
-void Runner::countDescriptors(Rebuild rebuild) {
+Status Runner::countDescriptors(Rebuild rebuild) {
     const bool devices_too = row_.combination.pattern == Pattern::CreateDestroyStorm;
     builds_ += rebuild == Rebuild::Everything || !devices_too ? 1U : 0U;
     if (builds_ >= 2) {
-        last_descriptors_ = openDescriptors();
+        const Result<std::uint64_t> elsewhere = rig_.vulkan().descriptorsElsewhere();
+        if (!elsewhere) {
+            return elsewhere.error();
+        }
+        last_descriptors_ = openDescriptors() + elsewhere.value();
         first_descriptors_ = first_descriptors_ == 0 ? last_descriptors_ : first_descriptors_;
     }
+    return {};
 }
 
 void Runner::fail(const Error& error) {
-    row_.failure = error.message();
+    const std::optional<Error> lost = rig_.built() ? rig_.vulkan().lost() : std::nullopt;
+    row_.failure = lost ? lost->message() : error.message();  // of a process that is gone, how it went
     if (rig_.built() && !rig_.vulkan().drain(0)) {
         // The signal that never came: given now, so that the queue ends.
         (void)rig_.link().rescue(std::max(course_.lastHost(), rescued_ + 1));

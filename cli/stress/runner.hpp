@@ -40,7 +40,7 @@ class Runner {
     void judge(std::uint64_t bad_before, std::uint64_t troubles_before, std::uint64_t refused);
     void touches(ledger::ActorId by, const Turn& turn, std::uint32_t wrong_layout = kNoSlot);
     [[nodiscard]] std::uint32_t firstShared(const Turn& turn) const;
-    void countDescriptors(Rebuild rebuild);
+    [[nodiscard]] Status countDescriptors(Rebuild rebuild);
     void fail(const Error& error);
     void keepLog(const std::string& log);
 

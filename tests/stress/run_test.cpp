@@ -2,15 +2,20 @@
 // The stress test itself, on both APIs: clean runs are clean, and each fault is seen by whom it must be seen.
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 
 #include "sluice/fd.hpp"
+#include "stress/descriptors.hpp"
 #include "stress/plan.hpp"
 #include "stress/rig.hpp"
 #include "stress/run.hpp"
@@ -24,10 +29,13 @@ bool never() {
     return false;
 }
 
+/// Of two processes only what is asked for by name: each run starts one.
 std::vector<Combination> drivable(const Options& options) {
     std::vector<Combination> runs = matrixOf(options).value().runs;
-    std::erase_if(
-        runs, [](const Combination& one) { return one.backend == Backend::Native || one.backend == Backend::Binary; });
+    std::erase_if(runs, [&](const Combination& one) {
+        return one.backend == Backend::Native || one.backend == Backend::Binary ||
+               (one.topology == Topology::TwoProcesses && !options.topology);
+    });
     return runs;
 }
 
@@ -112,6 +120,89 @@ TEST(MoreFaults, SwappedSignalsAndWrongLayoutsAreSeenByTheLedgerInEveryPattern) 
             EXPECT_NE(describe(row).find(id), std::string::npos) << describe(row);
         }
     }
+}
+
+/// Processes that this one has started and not yet reaped, zombies too.
+std::vector<pid_t> children() {
+    std::vector<pid_t> found;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc")) {
+        std::ifstream file(entry.path() / "stat");
+        std::string line;
+        // "PID (name) state parent ...", and the name may hold anything.
+        if (file && std::getline(file, line) && line.rfind(')') != std::string::npos) {
+            std::istringstream rest(line.substr(line.rfind(')') + 1));
+            std::string state;
+            pid_t parent = 0;
+            rest >> state >> parent;
+            if (parent == ::getpid()) {
+                found.push_back(std::stoi(entry.path().filename()));
+            }
+        }
+    }
+    return found;
+}
+
+TEST(TwoProcesses, AreCleanInEveryPatternAndResource) {
+    std::uint32_t turn = 0;
+    for (const Resource resource : {Resource::Colour, Resource::D32F, Resource::R32F, Resource::Buffer}) {
+        Options options;
+        options.topology = Topology::TwoProcesses;
+        options.resource = resource;
+        for (const Combination& one : drivable(options)) {
+            if (turn++ % 4 != 0) {
+                continue;  // 9 patterns and 4 resources: each of either comes up
+            }
+            const Row row = runCombination(one, kSeed, {300, 0.0}, "", never);
+            EXPECT_FALSE(row.failure) << describe(row);
+            EXPECT_EQ(row.bad_texels, 0U) << describe(row);
+            EXPECT_EQ(row.findings, 0U) << describe(row);
+            EXPECT_GE(row.handoffs, 300U);
+        }
+    }
+    EXPECT_EQ(turn, 36U);
+    EXPECT_TRUE(children().empty());
+}
+
+TEST(TwoProcesses, EachFaultIsSeenByTheLedger) {
+    for (const Fault fault : {Fault::Drop, Fault::Delay, Fault::Duplicate, Fault::SkipWait, Fault::WrongValue,
+                              Fault::EarlyReuse, Fault::Swap, Fault::WrongLayout}) {
+        const Combination one{Pattern::Ring, Backend::Bridged, Resource::R32F, Topology::TwoProcesses, fault};
+        const Row row = runCombination(one, kSeed, {1, 0.0}, "", never);
+        EXPECT_FALSE(row.failure) << describe(row);
+        EXPECT_GE(row.faults, 1U);
+        EXPECT_EQ(fault == Fault::Delay ? row.unseen : row.by_ledger, row.faults) << describe(row);
+    }
+}
+
+/// Whether it dies within a call or while the host waits for its signal is left to chance: the end is the same.
+Row runAndKill(std::vector<pid_t>& killed) {
+    int asked = 0;
+    const Combination one{Pattern::Ring, Backend::Bridged, Resource::R32F, Topology::TwoProcesses, Fault::None};
+    return runCombination(one, kSeed, {}, "", [&] {
+        if (++asked == 50) {
+            killed = children();
+            std::for_each(killed.begin(), killed.end(), [](pid_t pid) { ::kill(pid, SIGKILL); });
+        }
+        return false;
+    });
+}
+
+TEST(TwoProcesses, OneThatIsKilledIsToldOnceAndLeavesNothing) {
+    std::vector<pid_t> killed;
+    const Row row = runAndKill(killed);
+    ASSERT_EQ(killed.size(), 1U);
+    ASSERT_TRUE(row.failure);
+    EXPECT_NE(row.failure->find("Vulkan process " + std::to_string(killed[0]) + ": was killed by signal 9 (SIGKILL)"),
+              std::string::npos)
+        << *row.failure;
+    EXPECT_NE(row.failure->find("--topology bridge-thread"), std::string::npos) << *row.failure;
+    EXPECT_FALSE(row.stuck);
+    EXPECT_FALSE(row.refused_here);
+    EXPECT_TRUE(children().empty());
+    // What drivers open once for the whole process is theirs; another such run must add nothing.
+    const std::uint64_t open = openDescriptors();
+    EXPECT_TRUE(runAndKill(killed).failure);
+    EXPECT_EQ(openDescriptors(), open);
 }
 
 TEST(Pixels, SeeAReadThatDoesNotWait) {

@@ -38,9 +38,30 @@ SluiceFormat sharedFormat(Resource resource) {
                                         : SLUICE_FORMAT_R32F;
 }
 
-}  // namespace
+class VkHere final : public VkSide {
+  public:
+    struct State;
+    explicit VkHere(std::unique_ptr<State> state) : state_(std::move(state)) {}
+    VkHere(const VkHere&) = delete;
+    VkHere& operator=(const VkHere&) = delete;
+    ~VkHere() override;
 
-struct VkSide::State {
+    [[nodiscard]] const SluiceRendererCapabilities& capabilities() const override;
+    [[nodiscard]] Status allocate(const Storage& storage) override;
+    [[nodiscard]] Result<ExportedSlot> exportSlot(std::uint32_t slot) override;
+    [[nodiscard]] Status submit(const Turn& turn, const Hand& hand) override;
+    [[nodiscard]] Status signal(std::uint64_t value) override;
+    [[nodiscard]] SluiceResult wait(std::uint64_t value, std::uint64_t timeout_ns) override;
+    [[nodiscard]] Status relaySignal(RelayLeg leg, std::uint64_t value) override;
+    [[nodiscard]] SluiceResult relayWait(RelayLeg leg, std::uint64_t value, std::uint64_t timeout_ns) override;
+    [[nodiscard]] bool drain(std::uint64_t timeout_ns) override;
+    [[nodiscard]] Result<std::vector<std::byte>> read(std::uint32_t slot) override;
+
+  private:
+    std::unique_ptr<State> state_;
+};
+
+struct VkHere::State {
     std::unique_ptr<vk::Device> device;
     Storage storage;
     std::vector<vk::Image> images;                       // by slot, unless the resource is a buffer
@@ -85,7 +106,7 @@ struct VkSide::State {
     Status record(VkCommandBuffer buffer, const Turn& turn, const Hand& hand);
 };
 
-Status VkSide::State::createCommands() {
+Status VkHere::State::createCommands() {
     auto info = vkStruct<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
     info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
     info.queueFamilyIndex = device->queue_family;
@@ -99,7 +120,7 @@ Status VkSide::State::createCommands() {
     return result == VK_SUCCESS ? Status{} : Status{vulkanError(result, "command buffers of the stress test")};
 }
 
-Status VkSide::State::createSlots() {
+Status VkHere::State::createSlots() {
     for (std::uint32_t slot = 0; slot < storage.slots.count(); ++slot) {
         const bool shared = slot < storage.slots.shared();
         if (isBuffer()) {
@@ -133,7 +154,7 @@ Status VkSide::State::createSlots() {
     });
 }
 
-Status VkSide::State::createTimelines() {
+Status VkHere::State::createTimelines() {
     // The kind that lets a submission wait for what the host has not signalled yet; what makes "finish" is the caller's
     // wait for each submission.
     auto made = vk::RendererTimeline::create(*device, SLUICE_TIMELINE_BRIDGED);
@@ -156,7 +177,7 @@ Status VkSide::State::createTimelines() {
 }
 
 /// Between the two APIs for shared slots; within the queue for the side's own.
-void VkSide::State::transfer(VkCommandBuffer buffer, std::span<const std::uint32_t> slots, bool acquire,
+void VkHere::State::transfer(VkCommandBuffer buffer, std::span<const std::uint32_t> slots, bool acquire,
                              std::uint32_t wrong_layout) const {
     for (const std::uint32_t slot : slots) {
         const bool shared = slot < storage.slots.shared();
@@ -185,7 +206,7 @@ void VkSide::State::transfer(VkCommandBuffer buffer, std::span<const std::uint32
     }
 }
 
-Status VkSide::State::record(VkCommandBuffer buffer, const Turn& turn, const Hand& hand) {
+Status VkHere::State::record(VkCommandBuffer buffer, const Turn& turn, const Hand& hand) {
     auto begin = vkStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     if (const VkResult result = device->fn.vkBeginCommandBuffer(buffer, &begin); result != VK_SUCCESS) {
@@ -210,29 +231,13 @@ Status VkSide::State::record(VkCommandBuffer buffer, const Turn& turn, const Han
     return result == VK_SUCCESS ? Status{} : Status{vulkanError(result, "vkEndCommandBuffer")};
 }
 
-VkSide::VkSide(std::unique_ptr<State> state) : state_(std::move(state)) {}
-VkSide::~VkSide() = default;
+VkHere::~VkHere() = default;
 
-Result<std::unique_ptr<VkSide>> VkSide::create(const SluiceHostCapabilities& host) {
-    auto state = std::make_unique<State>();
-    vk::DeviceRequest request;
-    request.host = host;
-    auto device = vk::Device::create(request);
-    if (!device) {
-        return device.error();
-    }
-    state->device = std::move(device).value();
-    if (Status status = state->createCommands(); !status) {
-        return status.error();
-    }
-    return std::unique_ptr<VkSide>(new VkSide(std::move(state)));
-}
-
-const SluiceRendererCapabilities& VkSide::capabilities() const {
+const SluiceRendererCapabilities& VkHere::capabilities() const {
     return state_->device->capabilities;
 }
 
-Status VkSide::allocate(const Storage& storage) {
+Status VkHere::allocate(const Storage& storage) {
     state_->clear();
     state_->storage = storage;
     auto kernel = Kernel::create(*state_->device, storage);
@@ -246,7 +251,7 @@ Status VkSide::allocate(const Storage& storage) {
     return state_->createTimelines();
 }
 
-Result<ExportedSlot> VkSide::exportSlot(std::uint32_t slot) const {
+Result<ExportedSlot> VkHere::exportSlot(std::uint32_t slot) {
     auto fd = state_->isBuffer() ? state_->buffers[slot]->exportFd() : state_->images[slot].exportFd();
     if (!fd) {
         return fd.error();
@@ -255,7 +260,7 @@ Result<ExportedSlot> VkSide::exportSlot(std::uint32_t slot) const {
                                                                   : state_->images[slot].allocationSize()};
 }
 
-Status VkSide::submit(const Turn& turn, const Hand& hand) {
+Status VkHere::submit(const Turn& turn, const Hand& hand) {
     State& s = *state_;
     const std::size_t index = s.submissions % kCommandBuffers;
     if (s.submissions >= kBusy &&
@@ -295,27 +300,27 @@ Status VkSide::submit(const Turn& turn, const Hand& hand) {
     return {};
 }
 
-Status VkSide::signal(std::uint64_t value) {
+Status VkHere::signal(std::uint64_t value) {
     return state_->timeline->signal(value);
 }
 
-SluiceResult VkSide::wait(std::uint64_t value, std::uint64_t timeout_ns) const {
+SluiceResult VkHere::wait(std::uint64_t value, std::uint64_t timeout_ns) {
     return state_->timeline->wait(value, timeout_ns);
 }
 
-Status VkSide::relaySignal(RelayLeg leg, std::uint64_t value) {
+Status VkHere::relaySignal(RelayLeg leg, std::uint64_t value) {
     return state_->relay.at(static_cast<std::size_t>(leg))->signal(value);
 }
 
-SluiceResult VkSide::relayWait(RelayLeg leg, std::uint64_t value, std::uint64_t timeout_ns) const {
+SluiceResult VkHere::relayWait(RelayLeg leg, std::uint64_t value, std::uint64_t timeout_ns) {
     return state_->relay.at(static_cast<std::size_t>(leg))->wait(value, timeout_ns);
 }
 
-bool VkSide::drain(std::uint64_t timeout_ns) {
+bool VkHere::drain(std::uint64_t timeout_ns) {
     return state_->timeline == nullptr || wait(state_->last_signal, timeout_ns) == SLUICE_OK;
 }
 
-Result<std::vector<std::byte>> VkSide::read(std::uint32_t slot) {
+Result<std::vector<std::byte>> VkHere::read(std::uint32_t slot) {
     State& s = *state_;
     const std::size_t bytes = std::size_t{s.storage.texels()} * 4;
     if (!s.isBuffer()) {
@@ -344,6 +349,23 @@ Result<std::vector<std::byte>> VkSide::read(std::uint32_t slot) {
     }
     const auto mapped = staging.value().mapped();
     return std::vector<std::byte>(mapped.begin(), mapped.end());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<VkSide>> VkSide::create(const SluiceHostCapabilities& host) {
+    auto state = std::make_unique<VkHere::State>();
+    vk::DeviceRequest request;
+    request.host = host;
+    auto device = vk::Device::create(request);
+    if (!device) {
+        return device.error();
+    }
+    state->device = std::move(device).value();
+    if (Status status = state->createCommands(); !status) {
+        return status.error();
+    }
+    return std::unique_ptr<VkSide>(std::make_unique<VkHere>(std::move(state)));
 }
 
 }  // namespace sluice::stress

@@ -14,16 +14,14 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
-#include <system_error>
 #include <thread>
 
+#include "sluice/isolate/server.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::host {
 
 namespace {
-
-constexpr int kChannelFd = 3;  // cli/renderer/main.cpp
 
 std::string howItEnded(int status) {
     if (WIFSIGNALED(status)) {
@@ -59,21 +57,18 @@ Child::~Child() {
     }
 }
 
-Status Child::start(const std::filesystem::path& program, const std::filesystem::path& plugin,
+Status Child::start(const std::filesystem::path& program, const std::string& argument,
                     const isolate::Channel& channel) {
     SpawnActions spawn;
     posix_spawn_file_actions_adddup2(&spawn.files, STDERR_FILENO, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&spawn.files, channel.fd(), kChannelFd);
+    posix_spawn_file_actions_adddup2(&spawn.files, channel.fd(), isolate::kChannelFd);
     // Drivers and applications do not mark every descriptor of theirs close-on-exec.
-    posix_spawn_file_actions_addclosefrom_np(&spawn.files, kChannelFd + 1);
+    posix_spawn_file_actions_addclosefrom_np(&spawn.files, isolate::kChannelFd + 1);
     sigset_t none;
     sigemptyset(&none);
     posix_spawnattr_setsigmask(&spawn.attributes, &none);
     posix_spawnattr_setflags(&spawn.attributes, POSIX_SPAWN_SETSIGMASK);
-    // dlopen searches the library path for a name without a slash.
-    std::error_code ignored;
-    std::array<std::string, 4> words{program.string(), "--parent", std::to_string(::getpid()),
-                                     std::filesystem::absolute(plugin, ignored).string()};
+    std::array<std::string, 4> words{program.string(), "--parent", std::to_string(::getpid()), argument};
     std::array<char*, 5> arguments{words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
     const int failed =
         ::posix_spawn(&pid_, program.c_str(), &spawn.files, &spawn.attributes, arguments.data(), environ);

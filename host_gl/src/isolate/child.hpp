@@ -23,9 +23,9 @@ class Child {
     Child& operator=(const Child&) = delete;
     ~Child();
 
-    /// Starts `program` for `plugin` with `channel` as descriptor 3 and no other but standard input and error; what it
-    /// prints goes to this process's standard error.
-    [[nodiscard]] Status start(const std::filesystem::path& program, const std::filesystem::path& plugin,
+    /// Starts `program --parent PID argument` with `channel` as descriptor 3 and no other but standard input and error;
+    /// what it prints goes to this process's standard error.
+    [[nodiscard]] Status start(const std::filesystem::path& program, const std::string& argument,
                                const isolate::Channel& channel);
     [[nodiscard]] pid_t pid() const { return pid_; }
     /// Readable once the process has ended; -1 where the kernel has no such thing.

@@ -6,6 +6,8 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
+#include <system_error>
 #include <utility>
 #include <variant>
 
@@ -39,7 +41,10 @@ Result<std::unique_ptr<RendererProcess>> RendererProcess::start(const IsolationC
             return ends.error();
         }
         process->channel_ = std::move(ends.value().first);
-        if (Status started = process->child_.start(config.program, config.plugin, ends.value().second); !started) {
+        // dlopen searches the library path for a name without a slash.
+        std::error_code ignored;
+        const std::string plugin = std::filesystem::absolute(config.plugin, ignored).string();
+        if (Status started = process->child_.start(config.program, plugin, ends.value().second); !started) {
             return started.error();
         }
     }

@@ -96,14 +96,22 @@ Result<std::pair<Channel, Channel>> Channel::pair() {
 
 Status Channel::send(const Message& message, std::uint64_t call, std::span<const int> fds,
                      std::uint64_t timeout_ns) const {
-    std::vector<std::byte> bytes = encode(message, call, static_cast<std::uint32_t>(fds.size()));
+    const std::vector<std::byte> bytes = encode(message, call, static_cast<std::uint32_t>(fds.size()));
     if (bytes.size() > kMaxMessage || fds.size() > kFdRoom) {
         return Error{
             SLUICE_ERROR_INVALID_ARGUMENT, kThing,
             fmt::format("a {} of {} bytes and {} descriptors is too long", nameOf(message), bytes.size(), fds.size()),
             ""};
     }
-    iovec data{bytes.data(), bytes.size()};
+    return sendBytes(bytes, fds, timeout_ns);
+}
+
+Status Channel::sendBytes(std::span<const std::byte> bytes, std::span<const int> fds, std::uint64_t timeout_ns) const {
+    if (bytes.size() > kMaxMessage || fds.size() > kFdRoom) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, kThing,
+                     fmt::format("{} bytes and {} descriptors are too long a message", bytes.size(), fds.size()), ""};
+    }
+    iovec data{const_cast<std::byte*>(bytes.data()), bytes.size()};  // only read
     ControlRoom control{};
     msghdr header{};
     header.msg_iov = &data;
@@ -141,6 +149,19 @@ Status Channel::send(const Message& message, std::uint64_t call, std::span<const
 }
 
 Result<Received> Channel::receive(std::uint64_t timeout_ns) const {
+    Result<Packet> packet = receiveBytes(timeout_ns);
+    if (!packet) {
+        return packet.error();
+    }
+    std::vector<UniqueFd> fds = std::move(packet.value().fds);
+    Result<Decoded> decoded = decode(packet.value().bytes, static_cast<std::uint32_t>(fds.size()));
+    if (!decoded) {
+        return decoded.error();
+    }
+    return Received{decoded.value().call, std::move(decoded.value().message), std::move(fds)};
+}
+
+Result<Packet> Channel::receiveBytes(std::uint64_t timeout_ns) const {
     const std::uint64_t deadline = deadlineAfter(timeout_ns);
     std::array<std::byte, kMaxMessage> bytes;  // NOLINT(cppcoreguidelines-pro-type-member-init): filled below
     for (;;) {
@@ -175,12 +196,7 @@ Result<Received> Channel::receive(std::uint64_t timeout_ns) const {
                 fmt::format("a message was cut: expected at most {} bytes and {} descriptors", kMaxMessage, kFdRoom),
                 "the other process is broken, or this one is out of descriptors"};
         }
-        Result<Decoded> decoded =
-            decode(std::span(bytes).first(static_cast<std::size_t>(size)), static_cast<std::uint32_t>(fds.size()));
-        if (!decoded) {
-            return decoded.error();
-        }
-        return Received{decoded.value().call, std::move(decoded.value().message), std::move(fds)};
+        return Packet{{bytes.begin(), bytes.begin() + size}, std::move(fds)};
     }
 }
 

@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "sluice/isolate/server.hpp"
 
+#include <sys/prctl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <csignal>
 #include <cstring>
 #include <memory>
 #include <mutex>
@@ -260,6 +265,13 @@ Message Server::handle(const SetEnvironment& call, UniqueFd& /*with*/) {
 }
 
 }  // namespace
+
+bool endWithHost(std::string_view host) {
+    int pid = 0;
+    std::from_chars(host.data(), host.data() + host.size(), pid);
+    (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
+    return ::getppid() == pid;
+}
 
 Status serve(const SluiceRendererApi& api, const Channel& channel) {
     return Server(api, channel).run();

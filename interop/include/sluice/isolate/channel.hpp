@@ -2,6 +2,7 @@
 // One end of the socket between a host and its renderer's process.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
@@ -19,6 +20,12 @@ struct Received {
     std::uint64_t call = 0;
     Message message;
     std::vector<UniqueFd> fds;  ///< as many as the kind carries; close-on-exec
+};
+
+/// A message as it came, whatever it says.
+struct Packet {
+    std::vector<std::byte> bytes;
+    std::vector<UniqueFd> fds;  ///< close-on-exec
 };
 
 /// A Unix socket of whole messages (SOCK_SEQPACKET) with descriptors beside them. Any number of threads may send, one
@@ -39,6 +46,10 @@ class Channel {
     /// that it sent was received, SLUICE_ERROR_INVALID_ARGUMENT for a message that is none. Whatever descriptors came
     /// with that are closed.
     [[nodiscard]] Result<Received> receive(std::uint64_t timeout_ns) const;
+    /// The same for messages of the caller's own, of at most kMaxMessage bytes and 8 descriptors.
+    [[nodiscard]] Status sendBytes(std::span<const std::byte> bytes, std::span<const int> fds,
+                                   std::uint64_t timeout_ns) const;
+    [[nodiscard]] Result<Packet> receiveBytes(std::uint64_t timeout_ns) const;
     /// The other end's receive ends, and so does any here. The descriptor stays open.
     void shutdown() const;
     [[nodiscard]] int fd() const { return socket_.get(); }
