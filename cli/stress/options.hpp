@@ -89,7 +89,7 @@ template <typename T, std::size_t N>
 
 /// The run "piglit": as many links of one chain, through each of colour image, depth image and buffer, as piglit's
 /// vk_ping_pong makes through its buffer: 255 iterations of 128.
-inline constexpr std::uint64_t kAlternations = 255 * 128;
+inline constexpr std::uint64_t kAlternations = std::uint64_t{255} * 128;
 
 /// One cell of the matrix.
 struct Combination {
