@@ -25,7 +25,8 @@ namespace {
 using isolate::SharedTimeline;
 using isolate::WaitEnd;
 
-constexpr std::uint64_t kCallNs = 60'000'000'000;   ///< far more than any wait inside a call
+constexpr std::uint64_t kCallSeconds = 30;  ///< far more than any wait inside a call
+constexpr std::uint64_t kCallNs = kCallSeconds * 1'000'000'000;
 constexpr std::uint64_t kGraceNs = 10'000'000'000;  ///< for a process that was asked to end
 
 SluiceResult resultOf(WaitEnd end, const SharedTimeline& timeline) {
@@ -83,7 +84,7 @@ class VkElsewhere final : public VkSide {
     };
     /// `doing` is what is said if the process ends meanwhile.
     [[nodiscard]] Result<Reply> call(const Request& request, std::span<const int> fds, std::size_t fds_back,
-                                     std::string doing);
+                                     const std::string& doing);
     void watch();
     /// Kills it, for what only this process knows.
     void condemn(std::string blame);
@@ -154,7 +155,8 @@ void VkElsewhere::watch() {
         const std::lock_guard lock(mutex_);
         end_ = Error{SLUICE_ERROR_DEVICE_LOST, fmt::format("Vulkan process {}", child_.pid()),
                      blame_.empty() ? fmt::format("{} during {} or after it", how, doing_) : blame_,
-                     "what it said stands above, and the same command may be run again; with --topology bridge-thread "
+                     "what it said, if anything, stands above; the same command may be run again, and with --topology "
+                     "bridge-thread "
                      "there is no such process"};
         for (SharedTimeline* timeline : {timeline_.get(), relay_.get()}) {
             if (timeline != nullptr) {
@@ -183,7 +185,7 @@ Result<VkElsewhere::Reply> VkElsewhere::call(const Request& request, std::span<c
                                              std::string doing) {
     {
         const std::lock_guard lock(mutex_);
-        doing_ = std::move(doing);
+        doing_ = doing;
     }
     const Status sent = channel_.sendBytes(bytesOf(request), fds, kCallNs);
     Result<isolate::Packet> came = sent ? channel_.receiveBytes(kCallNs) : Result<isolate::Packet>(Error(sent.error()));
@@ -191,8 +193,9 @@ Result<VkElsewhere::Reply> VkElsewhere::call(const Request& request, std::span<c
         return gone();
     }
     if (!came) {
-        condemn(came.error().code == SLUICE_TIMEOUT ? "did not answer within 60 s and was killed"
-                                                    : "was killed: " + came.error().message());
+        condemn(came.error().code == SLUICE_TIMEOUT
+                    ? fmt::format("did not answer {} within {} s and was killed", doing, kCallSeconds)
+                    : "was killed: " + came.error().message());
         return gone();
     }
     const std::optional<Answer> answer = messageIn<Answer>(came.value().bytes);
