@@ -182,7 +182,7 @@ Error VkElsewhere::gone() {
 }
 
 Result<VkElsewhere::Reply> VkElsewhere::call(const Request& request, std::span<const int> fds, std::size_t fds_back,
-                                             std::string doing) {
+                                             const std::string& doing) {
     {
         const std::lock_guard lock(mutex_);
         doing_ = doing;
