@@ -48,7 +48,7 @@ void addNumber(CLI::App& app, const char* name, T& out, const char* expected, bo
                const char* help) {
     app.add_option_function<std::string>(
            name,
-           [&out, name, expected, zero](const std::string& text) {
+           [=, &out](const std::string& text) {
                double most = 1e6;
                std::uint64_t whole = 0;
                const char* const end = text.data() + text.size();

@@ -132,7 +132,7 @@ TEST_F(Files, AnEnvironmentMapThatIsAPipeIsRefusedAtOnce) {
 }
 
 TEST_F(Files, OutOfMemoryNamesTheSizeAndTheRemedyAndKeepsWhatIsDone) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SLUICE_SANITIZED
     GTEST_SKIP() << "the sanitizers' shadow memory does not fit under a limit of the address space";
 #endif
     // The target fits under the limit, reading it back as floats does not.

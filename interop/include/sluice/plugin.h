@@ -69,8 +69,10 @@ extern "C" {
 #define SLUICE_MAX_IMAGE_ROLES 16u /* room in arrays by role; SluiceImageRole may grow up to it */
 #define SLUICE_MAX_EXTENT 16384u   /* largest width or height of a shared image or an environment map, in texels */
 
-/* Results. Zero and positive values are not failures. */
-typedef enum SluiceResult {
+/* Results. Zero and positive values are not failures. A plain integer at the boundary: a broken renderer may return any
+ * number, and one outside a C++ enumeration would be undefined behaviour in the host. */
+typedef int32_t SluiceResult;
+enum SluiceResultCode {
     SLUICE_OK = 0,
     SLUICE_NOT_READY = 1, /* poll: that frame has not finished yet */
     SLUICE_TIMEOUT = 2,   /* timeline_wait: the deadline passed; nothing was lost, wait again or give up */
@@ -83,7 +85,7 @@ typedef enum SluiceResult {
     SLUICE_ERROR_CANARY = -7,      /* a shared image did not carry its contents across; see the message */
     SLUICE_ERROR_IMPORT = -8,      /* the host could not import a memory object */
     SLUICE_ERROR_INTERNAL = -9
-} SluiceResult;
+};
 
 /* One failure, told to a person. message is NUL-terminated: what failed, the value, the remedy. */
 typedef struct SluiceError {
