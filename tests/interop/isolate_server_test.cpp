@@ -52,27 +52,31 @@ SluiceRendererApi fakeApi() {
         }
         return result;
     };
-    api.info = [](SluiceRenderer* /*renderer*/, SluiceRendererInfo* info) {
+    api.info = [](SluiceRenderer* /*renderer*/, SluiceRendererInfo* info) -> SluiceResult {
         info->timeline = SLUICE_TIMELINE_BRIDGED;
         return SLUICE_OK;
     };
-    api.set_particles = [](SluiceRenderer* /*renderer*/, const SluiceParticles* particles, SluiceError* /*error*/) {
+    api.set_particles = [](SluiceRenderer* /*renderer*/, const SluiceParticles* particles,
+                           SluiceError* /*error*/) -> SluiceResult {
         fake.last_colour = particles->colour != nullptr ? particles->colour[3 * particles->count - 1] : -1.0F;
         return SLUICE_OK;
     };
-    api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame, SluiceError* /*error*/) {
+    api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
+                          SluiceError* /*error*/) -> SluiceResult {
         fake.own_value = frame->signal_value;
         return SLUICE_OK;
     };
-    api.timeline_signal = [](SluiceRenderer* /*renderer*/, std::uint64_t value) {
+    api.timeline_signal = [](SluiceRenderer* /*renderer*/, std::uint64_t value) -> SluiceResult {
         fake.signals += 1;
         fake.host_value = value;
         return SLUICE_OK;
     };
-    api.timeline_wait = [](SluiceRenderer* /*renderer*/, std::uint64_t value, std::uint64_t /*timeout_ns*/) {
+    api.timeline_wait = [](SluiceRenderer* /*renderer*/, std::uint64_t value,
+                           std::uint64_t /*timeout_ns*/) -> SluiceResult {
         return fake.own_value >= value ? SLUICE_OK : SLUICE_TIMEOUT;
     };
-    api.timeline_value = [](SluiceRenderer* /*renderer*/, std::uint32_t /*direction*/, std::uint64_t* value) {
+    api.timeline_value = [](SluiceRenderer* /*renderer*/, std::uint32_t /*direction*/,
+                            std::uint64_t* value) -> SluiceResult {
         *value = fake.own_value;
         return SLUICE_OK;
     };
