@@ -17,8 +17,10 @@ namespace sluice::host {
 namespace {
 
 std::string describe(const SluiceImageExport& image, const FormatInfo* format) {
-    return fmt::format("import of {} set {} ({}x{} {})", toString(static_cast<SluiceImageRole>(image.role)),
-                       image.image_set, image.width, image.height,
+    // Not yet checked: a number outside the enumeration must not become one of it.
+    const std::string_view role =
+        image.role < SLUICE_IMAGE_ROLE_COUNT ? toString(static_cast<SluiceImageRole>(image.role)) : "unknown role";
+    return fmt::format("import of {} set {} ({}x{} {})", role, image.image_set, image.width, image.height,
                        format != nullptr ? format->name : std::string_view("unknown format"));
 }
 
