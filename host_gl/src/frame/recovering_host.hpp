@@ -140,7 +140,8 @@ class RecoveringHost final : public FluidHost {
 template <typename Call, typename Value>
 Status RecoveringHost::give(Call call, const Value& value) {
     Status status = recovery_.down() ? Status{} : judged(call());
-    const bool refused = !status && status.error().code == SLUICE_ERROR_INVALID_ARGUMENT;
+    const bool refused = !status && (status.error().code == SLUICE_ERROR_INVALID_ARGUMENT ||
+                                     status.error().code == SLUICE_ERROR_UNSUPPORTED);
     if (recovers() && !refused) {
         scene_.keep(value);
     }

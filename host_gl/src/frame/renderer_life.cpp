@@ -72,14 +72,19 @@ Status RendererLife::fatal(Status status) {
     return status;
 }
 
+Status RendererLife::given(Status status) {
+    // More than the device can hold: what it had it keeps, and another renderer could hold no more.
+    return !status && status.error().code == SLUICE_ERROR_UNSUPPORTED ? status : fatal(std::move(status));
+}
+
 Status RendererLife::setParticles(const SluiceParticles& particles) {
     const auto scope = watch_.during("set_particles", 0);
-    return fatal(link_.renderer.setParticles(particles));
+    return given(link_.renderer.setParticles(particles));
 }
 
 Status RendererLife::setEnvironment(const SluiceEnvironment* environment) {
     const auto scope = watch_.during("set_environment", 0);
-    return fatal(link_.renderer.setEnvironment(environment));
+    return given(link_.renderer.setEnvironment(environment));
 }
 
 Result<SluiceFrameStats> RendererLife::stats(std::uint64_t frame) {

@@ -52,6 +52,8 @@ class RendererLife {
     [[nodiscard]] Status strike(Status status);
     /// `status` again. A failure that is no caller's is a fault.
     [[nodiscard]] Status fatal(Status status);
+    /// The same for a part of the scene, which a renderer may refuse and live on.
+    [[nodiscard]] Status given(Status status);
     /// nullptr without a ledger.
     [[nodiscard]] ledger::HandOffFeed* feed() { return link_.feed ? &*link_.feed : nullptr; }
     void tellSubmit(std::uint64_t frame);

@@ -259,6 +259,9 @@ Result<Reply> RendererProcess::call(const isolate::Message& message, std::span<c
         }
         const isolate::Answer answer = answerTo(got, back);
         if (const Status sent = channel_.send(answer, number, {}, config_.call_timeout_ns); !sent) {
+            if (sent.error().code != SLUICE_ERROR_DEVICE_LOST) {  // it lives, and nothing else would end it
+                condemn(fmt::format("did not take its answer during {} and was killed", doing));
+            }
             return gone();
         }
     }

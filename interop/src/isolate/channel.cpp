@@ -70,6 +70,7 @@ union ControlRoom {
 
 std::vector<UniqueFd> takeDescriptors(msghdr& header) {
     std::vector<UniqueFd> fds;
+    fds.reserve(kFdRoom);  // nothing may fail between the first descriptor and the last
     for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
         if (part->cmsg_level != SOL_SOCKET || part->cmsg_type != SCM_RIGHTS) {
             continue;
@@ -183,8 +184,11 @@ Result<Packet> Channel::receiveBytes(std::uint64_t timeout_ns) const {
             }
             continue;
         }
+        if (size < 0 && errno == ECONNRESET) {
+            continue;  // a message of ours lay unread over there; told once, and what it had sent before comes after
+        }
         if (size < 0) {
-            return errno == ECONNRESET ? closed() : systemError("recvmsg");
+            return systemError("recvmsg");
         }
         std::vector<UniqueFd> fds = takeDescriptors(header);
         if (size == 0) {
