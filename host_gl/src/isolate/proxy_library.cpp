@@ -12,20 +12,33 @@
 
 namespace sluice::host::proxy {
 
+namespace {
+
+/// A process for a call that is given these two, of which it has been checked that they can be read.
+Result<std::unique_ptr<RendererProcess>> processFor(Isolation& plugin, const SluiceHostServices* host,
+                                                    const SluiceCreateInfo* info) {
+    if (Status status = checkAbiStruct(host, "host"); !status) {
+        return status.error();
+    }
+    if (Status status = checkAbiStruct(info, "info"); !status) {
+        return status.error();
+    }
+    Result<std::unique_ptr<RendererProcess>> process = plugin.process();
+    if (process) {
+        process.value()->passTo(host);
+    }
+    return process;
+}
+
+}  // namespace
+
 SluiceResult describe(Isolation& plugin, const SluiceHostServices* host, const SluiceCreateInfo* info,
                       SluiceRendererCapabilities* capabilities, SluiceError* error) {
     return guarded(error, [&]() -> Status {
-        if (Status status = checkAbiStruct(host, "host"); !status) {
-            return status;
-        }
-        if (Status status = checkAbiStruct(info, "info"); !status) {
-            return status;
-        }
-        Result<std::unique_ptr<RendererProcess>> process = plugin.process();
+        Result<std::unique_ptr<RendererProcess>> process = processFor(plugin, host, info);
         if (!process) {
             return process.error();
         }
-        process.value()->passTo(host);
         isolate::Describe call;
         call.wants_trace = host->trace != nullptr ? 1 : 0;
         call.info = readAbiStruct(*info);
@@ -60,20 +73,13 @@ SluiceResult create(Isolation& plugin, const SluiceHostServices* host, const Slu
         if (renderer == nullptr) {
             return isNull("renderer");
         }
-        if (Status status = checkAbiStruct(host, "host"); !status) {
-            return status;
-        }
-        if (Status status = checkAbiStruct(info, "info"); !status) {
-            return status;
-        }
-        Result<std::unique_ptr<RendererProcess>> process = plugin.process();
+        Result<std::unique_ptr<RendererProcess>> process = processFor(plugin, host, info);
         if (!process) {
             return process.error();
         }
         auto made = std::make_unique<Proxy>();
         made->process = std::move(process).value();
         made->services = readAbiStruct(*host);
-        made->process->passTo(host);
         isolate::Create call;
         call.wants_trace = host->trace != nullptr ? 1 : 0;
         call.info = readAbiStruct(*info);
@@ -96,17 +102,10 @@ SluiceResult create(Isolation& plugin, const SluiceHostServices* host, const Slu
 SluiceResult probeFormat(Isolation& plugin, const SluiceHostServices* host, const SluiceCreateInfo* info,
                          std::uint32_t format, std::uint32_t width, std::uint32_t height, SluiceError* error) {
     return guarded(error, [&]() -> Status {
-        if (Status status = checkAbiStruct(host, "host"); !status) {
-            return status;
-        }
-        if (Status status = checkAbiStruct(info, "info"); !status) {
-            return status;
-        }
-        Result<std::unique_ptr<RendererProcess>> process = plugin.process();
+        Result<std::unique_ptr<RendererProcess>> process = processFor(plugin, host, info);
         if (!process) {
             return process.error();
         }
-        process.value()->passTo(host);
         const SluiceHostServices services = readAbiStruct(*host);
         isolate::ProbeFormat call;
         call.wants_trace = services.trace != nullptr ? 1 : 0;
