@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 // What `sluice render`, `probe` and `explain` produce, with the real plugin.
 #include <OpenImageIO/imageio.h>
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -182,6 +184,31 @@ TEST_F(Render, SequencesAndPatternsGoTogether) {
     EXPECT_TRUE(exists("deep/er/a_00005.png") && exists("deep/er/a_00006.png"));
     EXPECT_FALSE(read("deep/er/a_00005.png") == read("deep/er/a_00006.png"));
     EXPECT_EQ(nlohmann::json::parse(outcome.out).at("particles").at("count"), 512);
+}
+
+TEST_F(Render, RangesByTwoProcessesAtOnceAreTheFramesOfOneRun) {
+    for (const unsigned frame : {1U, 2U, 3U, 4U, 5U}) {
+        writeParticles(fmt::format("q_{}.pos", frame), 3 + frame);
+    }
+    const std::string options = "--particles q_#.pos --layers";
+    ASSERT_EQ(run("render s.json " + options + " whole_#.exr -o whole_#.png --frames 1..5").code, 0);
+    // The tasks of an array job of two, as Slurm would start them.
+    const std::string task = fmt::format(
+        "SLURM_ARRAY_TASK_MIN=7 SLURM_ARRAY_TASK_COUNT=2 {}/scripts/render-ranges.sbatch s.json 1 5 --quiet {} "
+        "part_#.exr "
+        "-o part_#.png",
+        SLUICE_SOURCE, options);
+    const std::string both = fmt::format(
+        "cd '{}' && unset SLUICE_PLUGIN && export PATH=\"$(dirname '{}'):$PATH\" && {{ SLURM_ARRAY_TASK_ID=8 {} & }} "
+        "&& "
+        "SLURM_ARRAY_TASK_ID=7 {} && wait $!",
+        at("").string(), SLUICE_PROGRAM, task, task);
+    ASSERT_EQ(std::system(both.c_str()), 0);
+    for (const char* frame :
+         {"1.png", "2.png", "3.png", "4.png", "5.png", "1.exr", "2.exr", "3.exr", "4.exr", "5.exr"}) {
+        EXPECT_FALSE(read(fmt::format("part_{}", frame)).empty()) << frame;
+        EXPECT_TRUE(read(fmt::format("part_{}", frame)) == read(fmt::format("whole_{}", frame))) << frame;
+    }
 }
 
 TEST_F(Render, EnvironmentMapsChangeTheReflection) {
