@@ -4,34 +4,20 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <cstring>
 
-#include "device/commands.hpp"
 #include "device/one_shot.hpp"
-#include "simulation/kernels.hpp"
-#include "simulation/step_timer.hpp"
+#include "simulation/solver_state.hpp"
 #include "simulation/time_step.hpp"
 #include "simulation/transfer.hpp"
 
 namespace sluice::vk {
 namespace {
 
-constexpr std::uint32_t kNotFinite = 1;  // FAULT_ of simulation.glsl
-constexpr std::uint32_t kCrowded = 2;
-/// Rows of the lists to begin with; at rest a particle has 32 neighbours.
-constexpr std::uint32_t kFirstNeighbours = 64;
 /// Supports. Farther, and the particles that the lists were made for are no neighbours any more.
 constexpr double kFarthestMove = 1.0;
 /// Of one call of advance: what needs more is not going to end.
 constexpr std::uint32_t kMostSteps = 4096;
-constexpr std::uint32_t kGroup = 64;
-constexpr std::uint32_t kScanGroup = 8;
-
-std::uint32_t groupsOf(std::uint32_t items, std::uint32_t group) {
-    return (items + group - 1) / group;
-}
 
 double norm(const Triple& v) {
     return std::hypot(double{v[0]}, double{v[1]}, double{v[2]});
@@ -46,142 +32,6 @@ double fastest(std::span<const float> velocities) {
 }
 
 }  // namespace
-
-struct Solver::State {
-    State(const Device& on, SimulationSettings with) : device(on), settings(std::move(with)), timer(on) {}
-
-    const Device& device;
-    SimulationSettings settings;
-    Grid grid;
-    Kernels kernels;
-    SimulationBuffers buffers;
-    StepTimer timer;
-    std::uint32_t count = 0;
-    bool odd = false;         ///< In and Out have changed places
-    bool measurable = false;  ///< the sorted buffers are those of the state
-    double speed = 0.0;       ///< m/s, of the fastest particle
-
-    [[nodiscard]] Slot in(Slot even, Slot when_odd) const { return odd ? when_odd : even; }
-    void run(VkCommandBuffer commands, Kernel kernel, std::uint32_t groups);
-    void record(VkCommandBuffer commands);
-    [[nodiscard]] Result<StepStatus> tryStep(float dt);
-    [[nodiscard]] Status makeRoom(std::uint32_t particles);
-    [[nodiscard]] Result<StepReport> attempt(double seconds);
-    void keep(const StepReport& report);
-};
-
-void Solver::State::run(VkCommandBuffer commands, Kernel kernel, std::uint32_t groups) {
-    kernels.dispatch(commands, kernel, odd, groups);
-    memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                      VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
-    timer.mark(commands, kernelName(kernel));
-}
-
-void Solver::State::record(VkCommandBuffer commands) {
-    const std::uint32_t all = groupsOf(count, kGroup);
-    const std::uint32_t blocks = groupsOf(groupsOf(grid.cells(), kScanBlock), kScanGroup);
-    timer.begin(commands);
-    device.fn.vkCmdFillBuffer(commands, buffers[Slot::Cells].buffer(), 0, VK_WHOLE_SIZE, 0);
-    device.fn.vkCmdFillBuffer(commands, buffers[Slot::Status].buffer(), 0, VK_WHOLE_SIZE, 0);
-    memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
-    timer.mark(commands, "clear");
-    run(commands, Kernel::Predict, all);
-    run(commands, Kernel::ScanSums, blocks);
-    run(commands, Kernel::ScanBlocks, 1);
-    run(commands, Kernel::ScanCells, blocks);
-    run(commands, Kernel::Scatter, all);
-    run(commands, Kernel::Order, all);
-    run(commands, Kernel::Neighbours, all);
-    for (std::uint32_t i = 0; i < settings.iterations; ++i) {
-        run(commands, Kernel::Lambda, all);
-        run(commands, Kernel::Delta, all);
-    }
-    run(commands, Kernel::Velocity, all);
-    const bool confined = settings.vorticity > 0.0F;
-    if (confined) {
-        run(commands, Kernel::Curl, all);
-    }
-    run(commands, confined ? Kernel::FinishConfined : Kernel::Finish, all);
-    memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
-                  VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-    const VkBufferCopy whole{0, 0, sizeof(StepStatus)};
-    device.fn.vkCmdCopyBuffer(commands, buffers[Slot::Status].buffer(), buffers.read_back.buffer(), 1, &whole);
-    memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                  VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-}
-
-Result<StepStatus> Solver::State::tryStep(float dt) {
-    const Parameters parameters = parametersOf(settings, grid, count, buffers.stride(), buffers.neighbours, dt);
-    std::memcpy(buffers[Slot::Parameters].mapped().data(), &parameters, sizeof parameters);
-    // The host decides after every step whether it counts, so there is never more than one under way.
-    if (const Status status = runOnce(device, [this](VkCommandBuffer commands) { record(commands); }); !status) {
-        return status.error();
-    }
-    timer.collect();
-    StepStatus status{};
-    std::memcpy(&status, buffers.read_back.mapped().data(), sizeof status);
-    return status;
-}
-
-Result<StepReport> Solver::State::attempt(double seconds) {
-    measurable = false;
-    for (;;) {
-        const Result<StepStatus> tried = tryStep(static_cast<float>(seconds));
-        if (!tried) {
-            return tried.error();
-        }
-        const StepStatus& status = tried.value();
-        if ((status.faults & kNotFinite) != 0) {
-            return Error{SLUICE_ERROR_INTERNAL, "simulation",
-                         fmt::format("a position or velocity became NaN or infinite in a step of {} s", seconds),
-                         "the state is that before the step; take smaller velocities or forces"};
-        }
-        if ((status.faults & kCrowded) != 0) {
-            return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation",
-                         "more than 60000 particles lie within two supports of one place",
-                         "the state is that before the step; spread the particles, or make their radius smaller"};
-        }
-        if (status.most_neighbours <= buffers.neighbours) {
-            return StepReport{seconds, double{std::bit_cast<float>(status.speed_bits)},
-                              double{std::bit_cast<float>(status.move_bits)}, status.most_neighbours};
-        }
-        // The lists were cut short, so nothing of this step counts. A quarter of room, so that it does not happen at
-        // every step of a fluid that is being pressed together.
-        const std::uint32_t rows = (status.most_neighbours + status.most_neighbours / 4 + 15) / 16 * 16;
-        device.log(SLUICE_LOG_INFO,
-                   fmt::format("simulation: lists of {} neighbours were too short, now {}", buffers.neighbours, rows));
-        if (const Status grown = growLists(device, buffers, rows); !grown) {
-            return grown.error();
-        }
-        kernels.bind(buffers);
-    }
-}
-
-void Solver::State::keep(const StepReport& report) {
-    odd = !odd;
-    measurable = true;
-    speed = report.speed;
-}
-
-Status Solver::State::makeRoom(std::uint32_t particles) {
-    const Grid planned = planGrid(settings, particles);
-    if (particles > buffers.particles || planned.cells() > buffers.cells) {
-        Result<SimulationBuffers> made =
-            createBuffers(device, std::max(particles, buffers.particles),
-                          std::max(kFirstNeighbours, buffers.neighbours), std::max(planned.cells(), buffers.cells));
-        if (!made) {
-            return made.error();
-        }
-        buffers = std::move(made).value();
-        kernels.bind(buffers);
-    }
-    grid = planned;
-    return {};
-}
 
 Solver::Solver(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Solver::~Solver() = default;

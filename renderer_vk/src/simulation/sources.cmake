@@ -6,6 +6,7 @@ list(APPEND SLUICE_VK_SOURCES
     src/simulation/parameters.cpp
     src/simulation/settings.cpp
     src/simulation/solver.cpp
+    src/simulation/solver_step.cpp
     src/simulation/step_timer.cpp
     src/simulation/time_step.cpp
     src/simulation/transfer.cpp
