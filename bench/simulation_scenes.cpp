@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "simulation_scenes.hpp"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+namespace sluice::bench {
+namespace {
+
+constexpr double kBase = 0.4;  // m
+constexpr double kGravity = 9.81;
+
+double squares(const std::vector<float>& values) {
+    double total = 0.0;
+    for (const float value : values) {
+        total += double{value} * double{value};
+    }
+    return total;
+}
+
+}  // namespace
+
+Scene waterInTrough(long across, long deep, double reach) {
+    Scene scene;
+    scene.base = kBase;
+    const double spacing = kBase / static_cast<double>(across);
+    scene.settings.radius = static_cast<float>(spacing / 2.0);
+    scene.settings.low = {0, 0, 0};
+    scene.settings.high = {static_cast<float>(reach * kBase), static_cast<float>(3.0 * kBase),
+                           static_cast<float>(static_cast<double>(deep) * spacing)};
+    for (long z = 0; z < deep; ++z) {
+        for (long y = 0; y < 2 * across; ++y) {
+            for (long x = 0; x < across; ++x) {
+                for (const long cell : {x, y, z}) {
+                    scene.positions.push_back(static_cast<float>(spacing * (static_cast<double>(cell) + 0.5)));
+                }
+            }
+        }
+    }
+    return scene;
+}
+
+Scene damBreak(long particles) {
+    const long across = std::max(4L, std::lround(std::cbrt(static_cast<double>(particles))));
+    return waterInTrough(across, (across + 1) / 2, 4.0);
+}
+
+Scene standingColumn(long particles) {
+    const long across = std::max(4L, std::lround(std::cbrt(static_cast<double>(particles))));
+    return waterInTrough(across, (across + 1) / 2, 1.0);
+}
+
+Compression compressionOf(const std::vector<float>& densities) {
+    Compression all;
+    for (const float density : densities) {
+        const double over = std::max(0.0, double{density} - 1.0);
+        all.mean += over;
+        all.greatest = std::max(all.greatest, over);
+    }
+    all.mean /= static_cast<double>(std::max<std::size_t>(1, densities.size()));
+    return all;
+}
+
+double energyOf(const vk::ParticleState& state) {
+    double potential = 0.0;
+    for (std::size_t i = 1; i < state.position.size(); i += 3) {
+        potential += kGravity * double{state.position[i]};
+    }
+    return (potential + 0.5 * squares(state.velocity)) * 3.0 / static_cast<double>(state.position.size());
+}
+
+double rmsSpeed(const vk::ParticleState& state) {
+    return std::sqrt(squares(state.velocity) * 3.0 / static_cast<double>(state.velocity.size()));
+}
+
+double cpuSeconds() {
+    std::timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double wallSeconds() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+long residentBytes() {
+    std::ifstream file("/proc/self/statm");
+    long total = 0;
+    long resident = 0;
+    file >> total >> resident;
+    return resident * sysconf(_SC_PAGESIZE);
+}
+
+long openFiles() {
+    const auto entries = std::filesystem::directory_iterator("/proc/self/fd");
+    return static_cast<long>(std::distance(begin(entries), end(entries)));
+}
+
+std::unique_ptr<vk::Device> makeDevice() {
+    vk::DeviceRequest request;
+    request.match_host = false;
+    return take(vk::Device::create(request));
+}
+
+std::unique_ptr<vk::Solver> makeSolver(const vk::Device& device, const Scene& scene) {
+    auto solver = take(vk::Solver::create(device, scene.settings));
+    check(solver->setParticles(scene.positions, {}));
+    return solver;
+}
+
+}  // namespace sluice::bench
