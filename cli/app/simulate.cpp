@@ -70,6 +70,9 @@ Status goOn(Run& run) {
     s.speed = std::max(s.speed, a.speed);
     s.most_neighbours = std::max(s.most_neighbours, a.most_neighbours);
     s.greatest_density = std::max(s.greatest_density, a.greatest_density);
+    s.born += a.born;
+    s.blocked += a.blocked;
+    s.drained += a.drained;
     run.compressions += a.mean_compression;
     return {};
 }
@@ -114,6 +117,7 @@ int runFrames(Run& run) {
         if (!particles) {
             return stopped(run, particles.error(), kExitNoFluid);
         }
+        run.summary.particles_at_end = particles.value().position.size() / 3;
         run.summary.replay_hash = replayHash(particles.value(), run.summary.replay_hash);
         if (frame >= run.frames.first) {
             if (const Status status = write(run, frame, std::move(particles).value()); !status) {

@@ -36,6 +36,24 @@ void addEngine(simulator::Setup& setup, const host::EngineScene& engine) {
     }
 }
 
+void addSources(simulator::Setup& setup, const scene::Simulation& s) {
+    for (const scene::Emitter& e : s.emitters) {
+        setup.emitters.push_back({e.shape == scene::kEmitterDisc, e.centre, e.direction, e.width, e.height, e.speed,
+                                  e.rate, e.start, e.stop});
+    }
+    for (const scene::Drain& drain : s.drains) {
+        setup.drains.push_back({drain.shape == scene::kDrainSphere, drain.centre, drain.half});
+    }
+    for (const scene::ForceField& f : s.fields) {
+        using Kind = simulator::ForceField::Kind;
+        const Kind kind = f.kind == scene::kFieldWind    ? Kind::Wind
+                          : f.kind == scene::kFieldPoint ? Kind::Point
+                                                         : Kind::Vortex;
+        setup.fields.push_back({kind, f.centre, f.axis, f.strength, f.radius});
+    }
+    setup.most_particles = static_cast<std::uint32_t>(kMostSimulated);
+}
+
 /// SplitMix64 (Steele et al. 2014): the n-th number of a seed.
 std::uint64_t mixed(std::uint64_t seed, std::uint64_t n) {
     std::uint64_t z = seed + (n + 1) * 0x9e3779b97f4a7c15U;
@@ -86,6 +104,7 @@ simulator::Setup simulationSetup(const scene::Scene& scene) {
     for (const scene::SolidPlane& plane : s.planes) {
         setup.planes.push_back({plane.normal, plane.through});
     }
+    addSources(setup, s);
     if (s.collide_with_engine != 0) {
         addEngine(setup, scene.engine);
     }
@@ -129,9 +148,10 @@ Result<simulator::Particles> startOfFluid(const scene::Simulation& simulation, c
             particles.velocity.push_back(all.velocity[i]);
         }
     }
-    if (particles.position.empty()) {
+    if (particles.position.empty() && simulation.emitters.empty()) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "/simulation/fluid",
-                     fmt::format("expected boxes that hold particles of radius {} m outside the solids, found none",
+                     fmt::format("expected boxes that hold particles of radius {} m outside the solids, or an emitter, "
+                                 "found none",
                                  simulation.radius),
                      "docs/cli.md shows one; samples/dam_break.json has it"};
     }

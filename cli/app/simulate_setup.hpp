@@ -18,7 +18,7 @@ inline constexpr std::uint64_t kMostSimulated = 4'000'000;
 
 /// A lattice of spacing 2r in every box of fluid, each particle moved by up to `jitter` radii along each axis by
 /// `seed`, without those that would lie in a solid. The same arguments give the same bits. An error if there is no
-/// fluid, or too much of it.
+/// fluid and no emitter, or too much fluid.
 [[nodiscard]] Result<simulator::Particles> startOfFluid(const scene::Simulation& simulation,
                                                         const simulator::Setup& setup, std::uint64_t seed);
 

@@ -36,6 +36,11 @@ std::string simulationText(const SimulationSummary& s) {
             "compression {:.2f} % in the mean, greatest density {:.3f}; fastest {:.2f} m/s; up to {} neighbours\n",
             100.0 * s.mean_compression, s.greatest_density, s.speed, s.most_neighbours);
     }
+    if (s.born + s.blocked + s.drained > 0) {
+        text +=
+            fmt::format("{} born, {} blocked by what was in the way, {} drained: {} at the end\n", formatCount(s.born),
+                        formatCount(s.blocked), formatCount(s.drained), formatCount(s.particles_at_end));
+    }
     text += fmt::format("{} {}, frames {} to {}; replay hash {}\n", formatCount(s.files.size()),
                         s.files.size() == 1 ? "file" : "files", s.first, s.last, hashText(s.replay_hash));
     return text;
@@ -49,7 +54,13 @@ nlohmann::ordered_json simulationJson(const SimulationSummary& s) {
     return {{"scene", s.scene},
             {"device", s.device},
             {"frames", {{"first", s.first}, {"last", s.last}, {"written", s.files.size()}}},
-            {"particles", {{"count", s.particles}, {"radius", s.radius}}},
+            {"particles",
+             {{"count", s.particles},
+              {"radius", s.radius},
+              {"at_end", s.particles_at_end},
+              {"born", s.born},
+              {"blocked", s.blocked},
+              {"drained", s.drained}}},
             {"simulated_s", s.simulated_s},
             {"solver_s", s.solver_s},
             {"steps", s.steps},

@@ -13,7 +13,8 @@ namespace sluice::cli {
 struct SimulationSummary {
     std::string scene, device;
     std::int64_t first = 0, last = 0;  ///< frames
-    std::uint64_t particles = 0;
+    std::uint64_t particles = 0, particles_at_end = 0;
+    std::uint64_t born = 0, blocked = 0, drained = 0;
     float radius = 0.0F;
     double simulated_s = 0.0;  ///< time of the fluid
     double solver_s = 0.0;     ///< time that the steps took

@@ -22,6 +22,11 @@ inline constexpr std::array<Choice, 5> kViews{{{"fluid", SLUICE_VIEW_FLUID},
                                                {"thickness", SLUICE_VIEW_THICKNESS},
                                                {"echo", SLUICE_VIEW_ECHO}}};
 
+inline constexpr std::array<Choice, 2> kEmitterShapes{{{"disc", kEmitterDisc}, {"box", kEmitterBox}}};
+inline constexpr std::array<Choice, 2> kDrainShapes{{{"sphere", kDrainSphere}, {"box", kDrainBox}}};
+inline constexpr std::array<Choice, 3> kFieldKinds{
+    {{"wind", kFieldWind}, {"point", kFieldPoint}, {"vortex", kFieldVortex}}};
+
 template <typename Visitor>
 void visitParticles(Visitor& v, ParticleSource& p) {
     v.text("path", p.path);
@@ -98,6 +103,33 @@ void visitEngine(Visitor& v, host::EngineScene& e) {
 }
 
 template <typename Visitor>
+void visitSources(Visitor& v, Simulation& s) {
+    v.list("emitters", s.emitters, [](auto& o, Emitter& emitter) {
+        o.choice("shape", emitter.shape, kEmitterShapes);
+        o.numbers("centre", emitter.centre, kAnyLength);
+        o.numbers("direction", emitter.direction, Range{-kWorld, kWorld});
+        o.number("width", emitter.width, kPositiveLength);
+        o.number("height", emitter.height, kPositiveLength);
+        o.number("speed", emitter.speed, Range{0.0, 1.0e4, true});
+        o.number("rate", emitter.rate, Range{0.0, 1.0e9});
+        o.number("start", emitter.start, Range{0.0, 1.0e6});
+        o.number("stop", emitter.stop, Range{0.0, 1.0e6});
+    });
+    v.list("drains", s.drains, [](auto& o, Drain& drain) {
+        o.choice("shape", drain.shape, kDrainShapes);
+        o.numbers("centre", drain.centre, kAnyLength);
+        o.numbers("half", drain.half, kPositiveLength);
+    });
+    v.list("fields", s.fields, [](auto& o, ForceField& field) {
+        o.choice("kind", field.kind, kFieldKinds);
+        o.numbers("centre", field.centre, kAnyLength);
+        o.numbers("axis", field.axis, Range{-kWorld, kWorld});
+        o.number("strength", field.strength, Range{-1.0e4, 1.0e4});
+        o.number("radius", field.radius, kLength);
+    });
+}
+
+template <typename Visitor>
 void visitSimulation(Visitor& v, Simulation& s) {
     v.number("radius", s.radius, Range{1.0e-4, 100.0});
     v.object("domain", [&s](auto& d) {
@@ -138,6 +170,7 @@ void visitSimulation(Visitor& v, Simulation& s) {
         o.numbers("normal", plane.normal, Range{-kWorld, kWorld});
         o.numbers("through", plane.through, kAnyLength);
     });
+    visitSources(v, s);
 }
 
 template <typename Visitor>

@@ -94,8 +94,42 @@ bool overlap(const FluidBox& a, const FluidBox& b) {
     return !apart;
 }
 
+void checkDirection(ObjectReader& reader, const std::string& key, const Vec3& direction) {
+    if (length(direction) < 1.0e-6) {
+        reader.fail(key, "a direction of length > 0", shown(direction));
+    }
+}
+
+/// What a scene file alone can tell; the solver checks openings and rates against its radius.
+void checkSources(ObjectReader& reader, const Simulation& s) {
+    for (std::size_t i = 0; i < s.emitters.size(); ++i) {
+        const Emitter& emitter = s.emitters[i];
+        const std::string key = fmt::format("simulation/emitters/{}", i);
+        checkDirection(reader, key + "/direction", emitter.direction);
+        if (emitter.shape == kEmitterDisc && emitter.width != emitter.height) {
+            reader.fail(key + "/height", fmt::format("the diameter of the disc, which is {}", emitter.width),
+                        fmt::format("{}", emitter.height));
+        }
+        if (emitter.stop != 0.0F && emitter.stop <= emitter.start) {
+            reader.fail(key + "/stop", fmt::format("0, or a time after start, which is {}", emitter.start),
+                        fmt::format("{}", emitter.stop));
+        }
+    }
+    for (std::size_t i = 0; i < s.drains.size(); ++i) {
+        const Vec3& half = s.drains[i].half;
+        if (s.drains[i].shape == kDrainSphere && (half[0] != half[1] || half[1] != half[2])) {
+            reader.fail(fmt::format("simulation/drains/{}/half", i), "the radius of the sphere, three times",
+                        shown(half));
+        }
+    }
+    for (std::size_t i = 0; i < s.fields.size(); ++i) {
+        checkDirection(reader, fmt::format("simulation/fields/{}/axis", i), s.fields[i].axis);
+    }
+}
+
 void checkSimulation(ObjectReader& reader, const Simulation& s) {
     checkBox(reader, "simulation/domain", s.low, s.high);
+    checkSources(reader, s);
     for (std::size_t i = 0; i < s.fluid.size(); ++i) {
         const std::string key = fmt::format("simulation/fluid/{}", i);
         checkBox(reader, key, s.fluid[i].low, s.fluid[i].high);
@@ -113,10 +147,7 @@ void checkSimulation(ObjectReader& reader, const Simulation& s) {
         }
     }
     for (std::size_t i = 0; i < s.planes.size(); ++i) {
-        if (length(s.planes[i].normal) < 1.0e-6) {
-            reader.fail(fmt::format("simulation/planes/{}/normal", i), "a direction of length > 0",
-                        shown(s.planes[i].normal));
-        }
+        checkDirection(reader, fmt::format("simulation/planes/{}/normal", i), s.planes[i].normal);
     }
 }
 

@@ -33,6 +33,20 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
     for (const Plane& plane : setup.planes) {
         s.solids.push_back(vk::planeSolid(plane.normal, plane.through));
     }
+    for (const Emitter& e : setup.emitters) {
+        s.sources.emitters.push_back(
+            {e.disc, e.centre, e.direction, e.width, e.height, e.speed, e.rate, e.start, e.stop});
+    }
+    for (const Drain& drain : setup.drains) {
+        s.sources.drains.push_back({drain.sphere, drain.centre, drain.half});
+    }
+    for (const ForceField& f : setup.fields) {
+        const vk::ForceKind kind = f.kind == ForceField::Kind::Wind    ? vk::ForceKind::Wind
+                                   : f.kind == ForceField::Kind::Point ? vk::ForceKind::Point
+                                                                       : vk::ForceKind::Vortex;
+        s.sources.fields.push_back({kind, f.centre, f.axis, f.strength, f.radius});
+    }
+    s.sources.most_particles = setup.most_particles;
     return s;
 }
 
@@ -98,7 +112,7 @@ Result<Advance> Simulator::advance(double seconds, double longest) {
         return report.error();
     }
     const vk::AdvanceReport& r = report.value();
-    Advance out{r.steps, r.split, r.shortest, r.speed, r.most_neighbours, 0.0, 0.0};
+    Advance out{r.steps, r.split, r.shortest, r.speed, r.most_neighbours, 0.0, 0.0, r.born, r.blocked, r.drained};
     const Result<std::vector<float>> densities = state_->solver->densities();
     if (!densities) {
         return densities.error();
@@ -107,7 +121,7 @@ Result<Advance> Simulator::advance(double seconds, double longest) {
         out.mean_compression += std::max(double{density} - 1.0, 0.0);
         out.greatest_density = std::max(out.greatest_density, double{density});
     }
-    out.mean_compression /= static_cast<double>(densities.value().size());
+    out.mean_compression /= static_cast<double>(std::max<std::size_t>(densities.value().size(), 1));
     return out;
 }
 

@@ -31,6 +31,22 @@ struct Plane {
     Vec3 normal, through;
 };
 
+/// Where particles are born, die and are blown; as the solver's own sources.hpp has them.
+struct Emitter {
+    bool disc;
+    Vec3 centre, direction;
+    float width, height, speed, rate, start, stop;
+};
+struct Drain {
+    bool sphere;
+    Vec3 centre, half;
+};
+struct ForceField {
+    enum class Kind : std::uint8_t { Wind, Point, Vortex } kind;
+    Vec3 centre, axis;
+    float strength, radius;
+};
+
 /// docs/simulation.md has every number; metres and seconds.
 struct Setup {
     float radius = 0.02F;
@@ -41,6 +57,10 @@ struct Setup {
     std::vector<Capsule> capsules;
     std::vector<Box> boxes;
     std::vector<Plane> planes;
+    std::vector<Emitter> emitters;
+    std::vector<Drain> drains;
+    std::vector<ForceField> fields;
+    std::uint32_t most_particles = 0;  ///< at which emitters stop
 };
 
 /// Particles in the order in which they were given; triples.
@@ -56,6 +76,7 @@ struct Advance {
     std::uint32_t most_neighbours = 0;
     double mean_compression = 0.0;  ///< mean of max(density - 1, 0) after the last step, in densities of rest
     double greatest_density = 0.0;
+    std::uint64_t born = 0, blocked = 0, drained = 0;  ///< particles
 };
 
 /// Distance from each position (triples) to the nearest solid or face of the domain, metres; negative where no fluid

@@ -19,7 +19,7 @@ layout(std430, set = 0, binding = 10) buffer Status { uint faults, most_neighbou
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
-    if (i >= p.count.x) {
+    if (i >= p.change.x || arrival[i].x == GONE) {
         return;
     }
     const uint cell = arrival[i].x;

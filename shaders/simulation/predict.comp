@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// Moves every particle by its velocity and gravity, keeps it out of the solids, and counts it into its cell.
+// Moves every particle by its velocity, gravity and force fields, keeps it out of the solids, and counts it into its cell.
 // Inputs: position, velocity. Outputs: predicted position, cell and arrival of each particle, particles of each cell.
 // The order of arrival is left to chance and forgotten in order.comp.
+#define SOURCES_BINDING 7
 #include "solids.glsl"
+#include "sources.glsl"
 
 layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint FIELDS = 0u;
 layout(std430, set = 0, binding = 1) readonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 2) readonly buffer Velocity { vec4 velocity[]; };
 layout(std430, set = 0, binding = 3) writeonly buffer Predicted { vec4 predicted[]; };
@@ -16,12 +19,20 @@ layout(std430, set = 0, binding = 6) buffer Status { uint faults, most_neighbour
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
-    if (i >= p.count.x) {
+    if (i >= p.change.x) {
+        return;
+    }
+    if (position[i].w != 0.0) {  // gone: it gets no place in the order
+        arrival[i] = uvec2(GONE, 0u);
         return;
     }
     const float dt = p.gravity.w;
     const vec3 start = position[i].xyz;
-    const vec3 moved = start + dt * (velocity[i].xyz + dt * p.gravity.xyz);
+    vec3 pull = p.gravity.xyz;
+    if (FIELDS == 1u) {
+        pull += fieldsAt(start);
+    }
+    const vec3 moved = start + dt * (velocity[i].xyz + dt * pull);
     if (isBad(moved)) {
         atomicOr(faults, FAULT_NOT_FINITE);
     }

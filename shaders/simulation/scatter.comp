@@ -12,7 +12,7 @@ layout(std430, set = 0, binding = 4) writeonly buffer Bucket { uint bucket[]; };
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
-    if (i < p.count.x) {
+    if (i < p.change.x && arrival[i].x != GONE) {
         bucket[cells[arrival[i].x] + arrival[i].y] = identity[i];
     }
 }

@@ -19,14 +19,18 @@ layout(std140, set = 0, binding = 0) uniform Parameters {
     vec4 kernel;     // x = poly6 factor, y = factor of spiky's gradient (negative), z = relaxation 1/m^2, w = tensile m^2
     vec4 fluid;      // x = XSPH, y = vorticity confinement, z = 1 / poly6's bracket at the tensile distance, w = 1/dt
     vec4 search;     // x = 1 / side of a cell, which is a little wider than the support; y = factor of a wall's density
-    uvec4 count;     // x = particles, y = distance between two rows of the lists, z = most neighbours, w = solids
+    uvec4 count;     // x = particles of the step, y = distance between two rows of the lists, z = most neighbours, w = solids
     uvec4 grid;      // x = cells along x, y and z = masks along y and z, w = cells
+    uvec4 change;    // x = particles before the sort, of which some may be gone; y = births after the step, z = the
+                     // identity of the first of them
     Solid solid[MAX_SOLIDS];
 } p;
 
 // Faults, reported by the host: simulation/status.hpp.
 const uint FAULT_NOT_FINITE = 1u;
 const uint FAULT_CROWDED = 2u;
+// Instead of its cell, of a particle that a drain took or that was never born.
+const uint GONE = 0xffffffffu;
 // llvmpipe stops an invocation silently after 65,535 loop iterations; so many candidates are refused before.
 const uint MOST_CANDIDATES = 60000u;
 

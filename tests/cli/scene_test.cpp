@@ -41,7 +41,12 @@ TEST(SceneFile, EveryKeyIsRead) {
                        "spheres": [{"centre": [1, 2, 3], "radius": 0.5}],
                        "capsules": [{"from": [1, 2, 3], "to": [4, 5, 6], "radius": 0.25}],
                        "boxes": [{"centre": [1, 2, 3], "half": [1, 2, 3], "turn_degrees": 30}],
-                       "planes": [{"normal": [0, 1, 0], "through": [0, -1, 0]}]},
+                       "planes": [{"normal": [0, 1, 0], "through": [0, -1, 0]}],
+                       "emitters": [{"shape": "box", "centre": [0, 1, 0], "direction": [0, -1, 1], "width": 0.1, "height": 0.2,
+                                     "speed": 2, "rate": 0, "start": 0.5, "stop": 3}],
+                       "drains": [{"shape": "sphere", "centre": [1, 0, 1], "half": [0.5, 0.5, 0.5]}],
+                       "fields": [{"kind": "vortex", "centre": [0, 1, 0], "axis": [0, 1, 0], "strength": -4,
+                                   "radius": 2}]},
         "frames": [3, 8], "size": [64, 48]})",
                                           "s.json");
     ASSERT_TRUE(read.ok()) << read.error().message();
@@ -75,6 +80,14 @@ TEST(SceneFile, EveryKeyIsRead) {
     EXPECT_EQ(s.simulation.capsules[0].to, (Vec3{4, 5, 6}));
     ASSERT_EQ(s.simulation.boxes.size(), 1U);
     EXPECT_EQ(s.simulation.boxes[0].turn_degrees, 30.0F);
+    ASSERT_EQ(s.simulation.emitters.size(), 1U);
+    EXPECT_EQ(s.simulation.emitters[0].shape, kEmitterBox);
+    EXPECT_EQ(s.simulation.emitters[0].stop, 3.0F);
+    ASSERT_EQ(s.simulation.drains.size(), 1U);
+    EXPECT_EQ(s.simulation.drains[0].shape, kDrainSphere);
+    ASSERT_EQ(s.simulation.fields.size(), 1U);
+    EXPECT_EQ(s.simulation.fields[0].kind, kFieldVortex);
+    EXPECT_EQ(s.simulation.fields[0].strength, -4.0F);
     EXPECT_EQ(writeScene(parseScene(writeScene(s), "again").value()), writeScene(s));
     EXPECT_EQ(s.frames, (FrameRange{3, 8}));
     EXPECT_EQ(s.size, (Size{64, 48}));

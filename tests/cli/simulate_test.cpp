@@ -58,6 +58,27 @@ TEST_F(Simulate, SaysWhatItDidAndWhereTheTimeWent) {
     EXPECT_EQ(run("simulate s.json -o f_##.pos --frames 1..2 --quiet").out, "");
 }
 
+TEST_F(Simulate, ATapFillsAnEmptySceneAndADrainTakesFromIt) {
+    write("s.json", R"({"simulation": {"radius": 0.05,
+        "emitters": [{"shape": "disc", "centre": [0, 1, 0], "direction": [0, -1, 0], "width": 0.4, "height": 0.4,
+                      "speed": 2, "rate": 0, "start": 0, "stop": 0}],
+        "drains": [{"shape": "box", "centre": [0, 0, 0], "half": [1, 0.2, 1]}],
+        "fields": [{"kind": "wind", "centre": [0, 1, 0], "axis": [1, 0, 0], "strength": 2, "radius": 1}]}})");
+    const nlohmann::json done = simulate("s.json -o f_##.ply --frames 1..16 --validation");
+    EXPECT_EQ(done["particles"]["count"], 0);
+    EXPECT_GT(done["particles"]["drained"], 0);
+    EXPECT_EQ(done["particles"]["at_end"].get<int>(),
+              done["particles"]["born"].get<int>() - done["particles"]["drained"].get<int>());
+    EXPECT_EQ(simulate("s.json -o g_##.ply --frames 16..16")["replay_hash"], done["replay_hash"]);
+    EXPECT_EQ(read("f_16.ply"), read("g_16.ply"));
+    write("wall.json", R"({"simulation": {
+        "emitters": [{"shape": "disc", "centre": [1, 1, 0], "direction": [0, -1, 0], "width": 0.2, "height": 0.2,
+                      "speed": 2, "rate": 0, "start": 0, "stop": 0}]}})");
+    const Outcome outcome = run("simulate wall.json -o w.ply");
+    EXPECT_EQ(outcome.code, 2);
+    EXPECT_THAT(outcome.err, HasSubstr("emitter 0: expected an opening within the domain"));
+}
+
 TEST_F(Simulate, AWrongCommandLineIsOneAndAWrongSceneTwo) {
     writeFluid("s.json");
     write("empty.json", "{}");
@@ -73,7 +94,7 @@ TEST_F(Simulate, AWrongCommandLineIsOneAndAWrongSceneTwo) {
     answer("s.json -o f_##.pos --frames 0..3", 1, "frame 1 is the start");
     answer("s.json -o f.png --frames 1..1", 1, "expected the ending .pos");
     answer("empty.json -o f.pos", 2, "empty.json: /simulation/fluid: ");
-    answer("small.json -o f.pos", 2, "outside the solids, found none");
+    answer("small.json -o f.pos", 2, "or an emitter, found none");
     answer("huge.json -o f.pos", 2, "at most 4000000 particles");
     EXPECT_THAT(files(), ElementsAre("empty.json", "huge.json", "s.json", "small.json"));
 }

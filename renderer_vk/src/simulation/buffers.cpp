@@ -11,6 +11,9 @@
 namespace sluice::vk {
 namespace {
 
+/// Room for so many in one step to begin with.
+constexpr std::uint32_t kFirstBirths = 256;
+
 struct SlotSize {
     const char* name;
     VkDeviceSize bytes;
@@ -59,6 +62,12 @@ SlotSize sizeOf(Slot slot, const SimulationBuffers& b) {
             return {"simulation moving", n * kVector, VK_FORMAT_R32G32B32A32_SFLOAT};
         case Slot::Curl:
             return {"simulation curl", n * kVector, VK_FORMAT_R32G32B32A32_SFLOAT};
+        case Slot::Sources:
+            return {"simulation sources", sizeof(SourceBlock)};
+        case Slot::Births:
+            return {"simulation births", VkDeviceSize{b.births} * 2 * kVector};
+        case Slot::Blocked:
+            return {"simulation births that are blocked", VkDeviceSize{b.births} * kWord};
         case Slot::Status:
         case Slot::Count:
             break;
@@ -77,15 +86,16 @@ Status createSlot(const Device& device, SimulationBuffers& buffers, Slot slot) {
                                  buffers.particles, limits.maxStorageBufferRange),
                      "simulate fewer particles"};
     }
-    const bool parameters = slot == Slot::Parameters;
-    VkBufferUsageFlags usage = parameters ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
-                                          : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
-                                                VK_BUFFER_USAGE_TRANSFER_DST_BIT;
+    const bool uniform = slot == Slot::Parameters || slot == Slot::Sources;
+    const bool written_by_host = uniform || slot == Slot::Births;
+    VkBufferUsageFlags usage = uniform ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
+                                       : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
+                                             VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (size.texels != VK_FORMAT_UNDEFINED) {
         usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
     }
-    Result<Buffer> buffer =
-        Buffer::create(device, {size.bytes, usage, parameters ? BufferPlace::Upload : BufferPlace::Device, size.name});
+    Result<Buffer> buffer = Buffer::create(
+        device, {size.bytes, usage, written_by_host ? BufferPlace::Upload : BufferPlace::Device, size.name});
     if (!buffer) {
         return buffer.error();
     }
@@ -140,6 +150,7 @@ Result<SimulationBuffers> createBuffers(const Device& device, std::uint32_t part
     buffers.particles = particles;
     buffers.neighbours = neighbours;
     buffers.cells = cells;
+    buffers.births = kFirstBirths;
     for (std::size_t slot = 0; slot < kSlots; ++slot) {
         if (const Status status = createSlot(device, buffers, static_cast<Slot>(slot)); !status) {
             return status.error();
@@ -159,6 +170,18 @@ Status growLists(const Device& device, SimulationBuffers& buffers, std::uint32_t
     Status status = createSlot(device, buffers, Slot::List);
     if (!status) {
         buffers.neighbours = before;
+    }
+    return status;
+}
+
+Status growBirths(const Device& device, SimulationBuffers& buffers, std::uint32_t births) {
+    const std::uint32_t before = std::exchange(buffers.births, births);
+    Status status = createSlot(device, buffers, Slot::Births);
+    if (status) {
+        status = createSlot(device, buffers, Slot::Blocked);
+    }
+    if (!status) {
+        buffers.births = before;
     }
     return status;
 }

@@ -35,6 +35,9 @@ enum class Slot : std::uint8_t {
     ListCount,
     Moving,
     Curl,
+    Sources,
+    Births,
+    Blocked,
     Status,
     Count
 };
@@ -58,9 +61,9 @@ class TexelView {
     const Device* device_ = nullptr;
 };
 
-/// What the status buffer holds after a step; see predict.comp.
+/// What the status buffer holds after a step.
 struct StepStatus {
-    std::uint32_t faults, most_neighbours, speed_bits, move_bits;
+    std::uint32_t faults, most_neighbours, speed_bits, move_bits, gone, stillborn;
 };
 
 struct SimulationBuffers {
@@ -70,6 +73,7 @@ struct SimulationBuffers {
     std::uint32_t particles = 0;           ///< capacity
     std::uint32_t neighbours = 0;          ///< rows of the lists
     std::uint32_t cells = 0;
+    std::uint32_t births = 0;  ///< of one step
 
     [[nodiscard]] const Buffer& operator[](Slot slot) const { return slots[static_cast<std::size_t>(slot)]; }
     /// Distance between rows of the lists: a whole number of workgroups.
@@ -81,5 +85,7 @@ struct SimulationBuffers {
                                                       std::uint32_t neighbours, std::uint32_t cells);
 /// Longer lists, which lose what they held; everything else stays.
 [[nodiscard]] Status growLists(const Device& device, SimulationBuffers& buffers, std::uint32_t neighbours);
+/// Room for more births of one step; everything else stays.
+[[nodiscard]] Status growBirths(const Device& device, SimulationBuffers& buffers, std::uint32_t births);
 
 }  // namespace sluice::vk

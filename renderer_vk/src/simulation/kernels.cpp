@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/kernels.hpp"
 
+#include <shaders/simulation_born_comp.h>
 #include <shaders/simulation_curl_comp.h>
 #include <shaders/simulation_delta_comp.h>
 #include <shaders/simulation_finish_comp.h>
@@ -8,6 +9,7 @@
 #include <shaders/simulation_neighbours_comp.h>
 #include <shaders/simulation_order_comp.h>
 #include <shaders/simulation_predict_comp.h>
+#include <shaders/simulation_retire_comp.h>
 #include <shaders/simulation_scan_blocks_comp.h>
 #include <shaders/simulation_scan_cells_comp.h>
 #include <shaders/simulation_scan_sums_comp.h>
@@ -26,6 +28,9 @@ struct Use {
     Slot slot;
     VkDescriptorType type = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 };
+constexpr Use uniform(Slot slot) {
+    return {slot, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
+}
 constexpr Use texels(Slot slot) {
     return {slot, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER};
 }
@@ -35,10 +40,10 @@ struct KernelDesc {
     Kernel kernel;
     std::span<const std::uint32_t> code;
     std::vector<Use> uses;
-    std::uint32_t constant = 0;
+    std::vector<std::uint32_t> constants{};
 };
 
-std::vector<KernelDesc> descriptions() {
+std::vector<KernelDesc> descriptions(const Features& features) {
     using enum Slot;
     const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}};
     const std::vector<Use> finish{texels(Sorted), texels(Moving), texels(Curl),  texels(List), {ListCount},
@@ -46,7 +51,8 @@ std::vector<KernelDesc> descriptions() {
     return {
         {Kernel::Predict,
          simulation_predict_comp,
-         {{PositionIn}, {VelocityIn}, {Predicted}, {Arrival}, {Cells}, {Status}}},
+         {{PositionIn}, {VelocityIn}, {Predicted}, {Arrival}, {Cells}, {Status}, uniform(Sources)},
+         {features.fields ? 1U : 0U}},
         {Kernel::ScanSums, simulation_scan_sums_comp, {{Cells}, {Sums}}},
         {Kernel::ScanBlocks, simulation_scan_blocks_comp, {{Sums}}},
         {Kernel::ScanCells, simulation_scan_cells_comp, {{Cells}, {Sums}}},
@@ -67,12 +73,15 @@ std::vector<KernelDesc> descriptions() {
          simulation_neighbours_comp,
          {texels(Sorted), texels(Cells), {List}, {ListCount}, {Status}}},
         {Kernel::Lambda, simulation_lambda_comp, lambda},
-        {Kernel::Measure, simulation_lambda_comp, lambda, 1},
+        {Kernel::Measure, simulation_lambda_comp, lambda, {1}},
         {Kernel::Delta, simulation_delta_comp, {texels(Pushed), texels(List), {ListCount}, {Walls}, {Sorted}}},
         {Kernel::Velocity, simulation_velocity_comp, {{Sorted}, {Before}, {Moving}}},
         {Kernel::Curl, simulation_curl_comp, {texels(Sorted), texels(Moving), texels(List), {ListCount}, {Slot::Curl}}},
-        {Kernel::Finish, simulation_finish_comp, finish},
-        {Kernel::FinishConfined, simulation_finish_comp, finish, 1},
+        {Kernel::Finish, simulation_finish_comp, finish, {features.confined ? 1U : 0U}},
+        {Kernel::Retire, simulation_retire_comp, {uniform(Sources), {Births}, {Blocked}, {PositionOut}, {Status}}},
+        {Kernel::Born,
+         simulation_born_comp,
+         {{Births}, {Blocked}, {PositionOut}, {VelocityOut}, {IdentityOut}, {Status}}},
     };
 }
 
@@ -98,7 +107,7 @@ Slot exchanged(Slot slot) {
 
 constexpr std::array<const char*, kKernels> kNames{"predict",  "scan_sums",  "scan_blocks", "scan_cells", "scatter",
                                                    "order",    "neighbours", "lambda",      "measure",    "delta",
-                                                   "velocity", "curl",       "finish",      "finish"};
+                                                   "velocity", "curl",       "finish",      "retire",     "born"};
 
 void write(const Device& device, VkDescriptorSet set, std::uint32_t binding, Use use,
            const SimulationBuffers& buffers) {
@@ -119,11 +128,12 @@ const char* kernelName(Kernel kernel) {
     return kNames.at(static_cast<std::size_t>(kernel));
 }
 
-Result<Kernels> Kernels::create(const Device& device) {
+Result<Kernels> Kernels::create(const Device& device, const Features& features) {
     Kernels made;
     made.device_ = &device;
+    made.features_ = features;
     constexpr auto kSets = static_cast<std::uint32_t>(2 * kKernels);
-    constexpr std::array<VkDescriptorPoolSize, 3> kSizes{{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kSets},
+    constexpr std::array<VkDescriptorPoolSize, 3> kSizes{{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kSets},
                                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 10 * kSets},
                                                           {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 4 * kSets}}};
     auto pool = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
@@ -134,13 +144,13 @@ Result<Kernels> Kernels::create(const Device& device) {
         result != VK_SUCCESS) {
         return vulkanError(result, "descriptor pool of the simulation");
     }
-    for (const KernelDesc& desc : descriptions()) {
+    for (const KernelDesc& desc : descriptions(features)) {
         std::vector<VkDescriptorType> types{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER};
         for (const Use& use : desc.uses) {
             types.push_back(use.type);
         }
-        const std::array<std::uint32_t, 1> constants{desc.constant};
-        Result<Pipeline> pipeline = createCompute(device, {kernelName(desc.kernel), desc.code, types, 0, constants});
+        Result<Pipeline> pipeline =
+            createCompute(device, {kernelName(desc.kernel), desc.code, types, 0, desc.constants});
         if (!pipeline) {
             return pipeline.error();
         }
@@ -167,6 +177,7 @@ Kernels::Kernels(Kernels&& other) noexcept {
 
 Kernels& Kernels::operator=(Kernels&& other) noexcept {
     std::swap(device_, other.device_);
+    std::swap(features_, other.features_);
     std::swap(pool_, other.pool_);
     std::swap(pipelines_, other.pipelines_);
     std::swap(sets_, other.sets_);
@@ -180,7 +191,7 @@ Kernels::~Kernels() {
 }
 
 void Kernels::bind(const SimulationBuffers& buffers) const {
-    for (const KernelDesc& desc : descriptions()) {
+    for (const KernelDesc& desc : descriptions(features_)) {
         for (std::size_t odd = 0; odd < 2; ++odd) {
             const VkDescriptorSet set = sets_.at(static_cast<std::size_t>(desc.kernel)).at(odd);
             write(*device_, set, 0, {Slot::Parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, buffers);

@@ -28,7 +28,8 @@ enum class Kernel : std::uint8_t {
     Velocity,
     Curl,
     Finish,
-    FinishConfined,
+    Retire,
+    Born,
     Count
 };
 inline constexpr std::size_t kKernels = static_cast<std::size_t>(Kernel::Count);
@@ -36,12 +37,18 @@ inline constexpr std::size_t kKernels = static_cast<std::size_t>(Kernel::Count);
 /// Cells that one invocation of the scan walks over.
 inline constexpr std::uint32_t kScanBlock = 512;
 
+/// What a scene needs beyond the plain step. A pass without it is compiled without it.
+struct Features {
+    bool confined = false;  ///< vorticity confinement
+    bool fields = false;    ///< force fields
+};
+
 [[nodiscard]] const char* kernelName(Kernel kernel);
 
 /// Pipelines and descriptor sets. The sets name the buffers that they were bound to; bind again when one is replaced.
 class Kernels {
   public:
-    static Result<Kernels> create(const Device& device);
+    static Result<Kernels> create(const Device& device, const Features& features);
     Kernels() = default;
     Kernels(Kernels&& other) noexcept;
     Kernels& operator=(Kernels&& other) noexcept;
@@ -56,6 +63,7 @@ class Kernels {
 
   private:
     const Device* device_ = nullptr;
+    Features features_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     std::array<Pipeline, kKernels> pipelines_;
     std::array<std::array<VkDescriptorSet, 2>, kKernels> sets_{};

@@ -77,7 +77,7 @@ double wallFactor() {
     return (1.0 - latticeSum(kRadius, 0) / latticeSum(kRadius, -2)) / kHalfSpace;
 }
 
-Parameters parametersOf(const SimulationSettings& s, const Grid& grid, std::uint32_t particles, std::uint32_t stride,
+Parameters parametersOf(const SimulationSettings& s, const Grid& grid, const StepCounts& counts, std::uint32_t stride,
                         std::uint32_t most, float dt) {
     const auto h = double{s.support()};
     const double volume = particleVolume(double{s.radius});
@@ -92,7 +92,8 @@ Parameters parametersOf(const SimulationSettings& s, const Grid& grid, std::uint
                 static_cast<float>(double{s.relaxation} / (h * h)), static_cast<float>(double{s.tensile} * h * h)};
     p.fluid = {s.viscosity, s.vorticity, static_cast<float>(1.0 / tensile), 1.0F / dt};
     p.search = {static_cast<float>(1.0 / grid.side), static_cast<float>(wallFactor()), 0, 0};
-    p.count = {particles, stride, most, static_cast<std::uint32_t>(s.solids.size())};
+    p.count = {counts.living, stride, most, static_cast<std::uint32_t>(s.solids.size())};
+    p.change = {counts.entries, counts.births, counts.next_identity, 0};
     p.grid = {grid.x, grid.y - 1, grid.z - 1, grid.cells()};
     for (std::size_t i = 0; i < s.solids.size(); ++i) {
         const Solid& solid = s.solids[i];

@@ -14,10 +14,10 @@ struct SolidBlock {
 };
 struct Parameters {
     std::array<float, 4> gravity, low, high, kernel, fluid, search;
-    std::array<std::uint32_t, 4> count, grid;
+    std::array<std::uint32_t, 4> count, grid, change;
     std::array<SolidBlock, kMaxSolids> solids;
 };
-static_assert(sizeof(Parameters) == 128 + 48 * kMaxSolids, "std140");
+static_assert(sizeof(Parameters) == 144 + 48 * kMaxSolids, "std140");
 
 /// The cells of the neighbour search. x is one row of cells with an empty one at each end; y and z are powers of two
 /// and wrap around when the domain has more.
@@ -37,8 +37,16 @@ inline constexpr std::uint32_t kMostCells = 1U << 22;
 /// first layer is a radius away from the wall has the density of rest there too, exactly 1. A number near 0.881.
 [[nodiscard]] double wallFactor();
 
+/// How many particles a step has, and what becomes of them.
+struct StepCounts {
+    std::uint32_t entries = 0;  ///< before the sort; some may be gone
+    std::uint32_t living = 0;   ///< those that are not
+    std::uint32_t births = 0;   ///< after it
+    std::uint32_t next_identity = 0;
+};
+
 /// `stride` is the distance between rows of the neighbour lists, `most` the rows.
-[[nodiscard]] Parameters parametersOf(const SimulationSettings& settings, const Grid& grid, std::uint32_t particles,
+[[nodiscard]] Parameters parametersOf(const SimulationSettings& settings, const Grid& grid, const StepCounts& counts,
                                       std::uint32_t stride, std::uint32_t most, float dt);
 
 }  // namespace sluice::vk

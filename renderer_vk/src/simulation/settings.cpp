@@ -7,47 +7,11 @@
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <numbers>
+
+#include "simulation/vector.hpp"
 
 namespace sluice::vk {
 namespace {
-
-using Vector = std::array<double, 3>;
-
-Vector minus(const Triple& a, const Triple& b) {
-    return {double{a[0]} - double{b[0]}, double{a[1]} - double{b[1]}, double{a[2]} - double{b[2]}};
-}
-double dot(const Vector& a, const Vector& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-double length(const Vector& v) {
-    return std::sqrt(dot(v, v));
-}
-Vector cross(const Vector& a, const Vector& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-/// v turned back by the quaternion: from the world's axes to the solid's.
-Vector turnedBack(const std::array<float, 4>& q, const Vector& v) {
-    const Vector axis{-double{q[0]}, -double{q[1]}, -double{q[2]}};
-    Vector inner = cross(axis, v);
-    for (std::size_t i = 0; i < 3; ++i) {
-        inner[i] += double{q[3]} * v[i];
-    }
-    const Vector outer = cross(axis, inner);
-    return {v[0] + 2.0 * outer[0], v[1] + 2.0 * outer[1], v[2] + 2.0 * outer[2]};
-}
-
-double distanceToBox(const Solid& solid, const Triple& x) {
-    const Vector local = turnedBack(solid.turn, minus(x, solid.a));
-    Vector out{};
-    double inner = -1e300;
-    for (std::size_t i = 0; i < 3; ++i) {
-        out[i] = std::abs(local[i]) - double{solid.b[i]};
-        inner = std::max(inner, out[i]);
-        out[i] = std::max(out[i], 0.0);
-    }
-    return inner > 0.0 ? length(out) : inner;
-}
 
 /// Whether a corner of the domain lies below the plane.
 bool planeReaches(const Solid& plane, const SimulationSettings& s, double slack) {
@@ -124,51 +88,6 @@ Status checkSolid(const Solid& solid, std::size_t index) {
 
 }  // namespace
 
-Solid planeSolid(const Triple& normal, const Triple& through) {
-    const double norm = length(minus(normal, {}));
-    Solid solid;
-    solid.kind = SolidKind::Plane;
-    for (std::size_t i = 0; i < 3; ++i) {
-        solid.a[i] = static_cast<float>(double{normal[i]} / norm);
-    }
-    solid.radius = static_cast<float>(dot(minus(solid.a, {}), minus(through, {})));
-    return solid;
-}
-
-Solid sphereSolid(const Triple& centre, float radius) {
-    return {SolidKind::Sphere, centre, {}, radius, {0, 0, 0, 1}};
-}
-
-Solid capsuleSolid(const Triple& a, const Triple& b, float radius) {
-    return {SolidKind::Capsule, a, b, radius, {0, 0, 0, 1}};
-}
-
-Solid boxSolid(const Triple& centre, const Triple& half, float degrees_about_y) {
-    const double angle = double{degrees_about_y} * std::numbers::pi / 360.0;
-    return {SolidKind::Box,
-            centre,
-            half,
-            0.0F,
-            {0, static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))}};
-}
-
-double distanceTo(const Solid& solid, const Triple& x) {
-    if (solid.kind == SolidKind::Plane) {
-        return dot(minus(solid.a, {}), minus(x, {})) - double{solid.radius};
-    }
-    if (solid.kind == SolidKind::Box) {
-        return distanceToBox(solid, x);
-    }
-    const Vector axis = solid.kind == SolidKind::Capsule ? minus(solid.b, solid.a) : Vector{};
-    Vector away = minus(x, solid.a);
-    const double square = dot(axis, axis);
-    const double along = square > 0.0 ? std::clamp(dot(away, axis) / square, 0.0, 1.0) : 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        away[i] -= along * axis[i];
-    }
-    return length(away) - double{solid.radius};
-}
-
 std::vector<Solid> solidsWithin(const SimulationSettings& settings) {
     const double slack = 1e-3 * double{settings.radius};
     std::vector<Solid> within;
@@ -218,12 +137,12 @@ Status checkSettings(const SimulationSettings& s) {
         return wrong("simulation: solids", fmt::format("at most {} that reach into the domain", kMaxSolids),
                      fmt::format("{}", within));
     }
-    return {};
+    return checkSources(s.sources, s.radius, s.low, s.high, s.solids);
 }
 
 Status checkParticles(const SimulationSettings& settings, std::span<const float> positions,
                       std::span<const float> velocities) {
-    if (positions.empty() || positions.size() % 3 != 0 ||
+    if ((positions.empty() && settings.sources.emitters.empty()) || positions.size() % 3 != 0 ||
         (!velocities.empty() && velocities.size() != positions.size())) {
         return wrong("simulation: particles", "triples, and velocities for all or none",
                      fmt::format("{} and {} numbers", positions.size(), velocities.size()));

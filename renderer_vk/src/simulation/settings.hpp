@@ -2,36 +2,15 @@
 // What a simulation is told: the fluid, the box that holds it and the solids in it. Pure: no Vulkan type.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "simulation/solid.hpp"
+#include "simulation/sources.hpp"
 #include "sluice/result.hpp"
 
 namespace sluice::vk {
-
-using Triple = std::array<float, 3>;
-
-enum class SolidKind : std::uint32_t { Plane = 0, Sphere = 1, Capsule = 2, Box = 3 };
-
-/// Something that fluid stays out of. Make it with the functions below.
-struct Solid {
-    SolidKind kind = SolidKind::Sphere;
-    Triple a{};                             ///< plane: unit normal; others: centre or first end
-    Triple b{};                             ///< capsule: second end; box: half extents
-    float radius = 0.0F;                    ///< sphere, capsule; plane: offset along the normal
-    std::array<float, 4> turn{0, 0, 0, 1};  ///< box: unit quaternion from its axes to the world's
-};
-/// Everything below dot(normal, x) = offset; the normal need not be unit, but not 0.
-[[nodiscard]] Solid planeSolid(const Triple& normal, const Triple& through);
-[[nodiscard]] Solid sphereSolid(const Triple& centre, float radius);
-[[nodiscard]] Solid capsuleSolid(const Triple& a, const Triple& b, float radius);
-/// Turned about +y by `degrees`, as host::Crate is.
-[[nodiscard]] Solid boxSolid(const Triple& centre, const Triple& half, float degrees_about_y = 0.0F);
-
-/// Distance from x to the solid's surface, metres; negative inside.
-[[nodiscard]] double distanceTo(const Solid& solid, const Triple& x);
 
 /// Of those that reach into the domain.
 inline constexpr std::uint32_t kMaxSolids = 64;
@@ -47,6 +26,7 @@ struct SimulationSettings {
     float vorticity = 0.0F;                ///< epsilon of vorticity confinement, m/s; not 0: momentum is not kept
     float cfl = 0.4F;                      ///< supports that a particle may fly in one step
     std::vector<Solid> solids;
+    SourceSettings sources;
 
     [[nodiscard]] float support() const { return 4.0F * radius; }
 };

@@ -42,7 +42,8 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
     }
     auto state = std::make_unique<State>(device, settings);
     state->settings.solids = solidsWithin(settings);
-    Result<Kernels> kernels = Kernels::create(device);
+    state->sources = sourceBlock(settings.sources);
+    Result<Kernels> kernels = Kernels::create(device, {settings.vorticity > 0.0F, !settings.sources.fields.empty()});
     if (!kernels) {
         return kernels.error();
     }
@@ -56,18 +57,22 @@ Status Solver::setParticles(std::span<const float> positions, std::span<const fl
         return status;
     }
     const auto count = static_cast<std::uint32_t>(positions.size() / 3);
-    if (Status status = s.makeRoom(count); !status) {
+    if (Status status = s.makeRoom(count, false); !status) {
         return status;
     }
     s.odd = false;
     s.measurable = false;
-    s.count = count;
+    s.counts = {count, count, 0, count};
+    s.time = 0.0;
     s.speed = fastest(velocities);
+    for (const Emitter& emitter : s.settings.sources.emitters) {
+        s.speed = std::max(s.speed, double{emitter.speed});
+    }
     return uploadParticles(s.device, s.buffers, positions, velocities);
 }
 
 Result<StepReport> Solver::step(double seconds) {
-    if (state_->count == 0 || !(seconds > 0.0 && seconds <= 1.0)) {
+    if (!state_->ready() || !(seconds > 0.0 && seconds <= 1.0)) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation",
                      fmt::format("expected particles and a step in (0, 1] s, found {} and {}", count(), seconds), ""};
     }
@@ -80,14 +85,15 @@ Result<StepReport> Solver::step(double seconds) {
 
 Result<AdvanceReport> Solver::advance(double seconds, double longest) {
     State& s = *state_;
-    if (s.count == 0 || !(seconds > 0.0 && longest > 0.0 && longest <= 1.0)) {
+    if (!s.ready() || !(seconds > 0.0 && longest > 0.0 && longest <= 1.0)) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation",
                      fmt::format("expected particles, a time > 0 and steps in (0, 1] s, found {}, {} and {}", count(),
                                  seconds, longest),
                      ""};
     }
     const auto h = double{s.settings.support()};
-    const StepLimits limits{longest, double{s.settings.cfl} * h, norm(s.settings.gravity)};
+    const StepLimits limits{longest, double{s.settings.cfl} * h,
+                            norm(s.settings.gravity) + strongest(s.settings.sources.fields)};
     AdvanceReport total;
     total.shortest = longest;
     double left = seconds;
@@ -113,6 +119,9 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
         }
         s.keep(report.value());
         ++total.steps;
+        total.born += report.value().born;
+        total.blocked += report.value().blocked;
+        total.drained += report.value().drained;
         total.shortest = std::min(total.shortest, dt);
         total.speed = std::max(total.speed, s.speed);
         left = dt < left * (1.0 - 1e-9) ? left - dt : 0.0;
@@ -130,12 +139,16 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
 }
 
 std::uint32_t Solver::count() const {
-    return state_->count;
+    return state_->counts.living;
+}
+
+double Solver::time() const {
+    return state_->time;
 }
 
 Result<ParticleState> Solver::read() const {
     const State& s = *state_;
-    return downloadParticles(s.device, s.buffers, s.count, s.odd);
+    return downloadParticles(s.device, s.buffers, s.counts.entries, s.odd);
 }
 
 Result<std::vector<float>> Solver::densities() const {
@@ -146,17 +159,20 @@ Result<std::vector<float>> Solver::densities() const {
     }
     const Status status = runOnce(s.device, [&s](VkCommandBuffer commands) {
         // In and Out have changed places since; this pass reads neither.
-        s.kernels.dispatch(commands, Kernel::Measure, s.odd, groupsOf(s.count, kGroup));
+        s.kernels.dispatch(commands, Kernel::Measure, s.odd, groupsOf(s.moved, kGroup));
     });
     if (!status) {
         return status.error();
     }
-    return downloadDensities(s.device, s.buffers, s.count, s.odd);
+    return downloadDensities(s.device, s.buffers, s.moved, s.odd);
 }
 
 Result<NeighbourLists> Solver::lists() const {
     const State& s = *state_;
-    return downloadLists(s.device, s.buffers, s.count, s.odd);
+    if (s.changing()) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "simulation", "lists are those of particles that stay", ""};
+    }
+    return downloadLists(s.device, s.buffers, s.counts.living, s.odd);
 }
 
 std::vector<std::pair<std::string, double>> Solver::times() const {

@@ -26,6 +26,9 @@ struct StepReport {
     double speed = 0.0;    ///< fastest particle after it, m/s
     double move = 0.0;     ///< farthest that a particle went, m
     std::uint32_t most_neighbours = 0;
+    std::uint32_t born = 0,
+                  blocked = 0;  ///< of those that were to be born, and could not because of what was in the way
+    std::uint32_t drained = 0;
 };
 /// What it took to get from one time to another.
 struct AdvanceReport {
@@ -34,6 +37,7 @@ struct AdvanceReport {
     double shortest = 0.0;    ///< step, seconds
     double speed = 0.0;       ///< greatest of all steps, m/s
     std::uint32_t most_neighbours = 0;
+    std::uint64_t born = 0, blocked = 0, drained = 0;  ///< particles
 };
 
 /// Every neighbour list, for tests: `list[i]` holds the identities of the neighbours of the particle with identity i.
@@ -51,7 +55,8 @@ class Solver {
     Solver& operator=(const Solver&) = delete;
     ~Solver();
 
-    /// Replaces all particles; velocities are 0 if there are none. Refused, with the particle named, if one is not
+    /// Replaces all particles and sets the time to 0; velocities are 0 if there are none. There may be no particles if
+    /// there is an emitter. Refused, with the particle named, if one is not
     /// finite, outside the domain or in a solid; the particles before then stay.
     [[nodiscard]] Status setParticles(std::span<const float> positions, std::span<const float> velocities);
     /// One step of that length, whatever the CFL number. On an error the state is that before the step.
@@ -61,9 +66,14 @@ class Solver {
     [[nodiscard]] Result<AdvanceReport> advance(double seconds, double longest);
 
     [[nodiscard]] std::uint32_t count() const;
+    /// Seconds that were simulated since setParticles.
+    [[nodiscard]] double time() const;
+    /// Those that live, in the order in which they were given; then the others in the order of their birth.
     [[nodiscard]] Result<ParticleState> read() const;
-    /// Density of each particle after the last step, in densities of rest; walls count as fluid at rest.
+    /// Density of each particle that the last step moved, in densities of rest; walls count as fluid at rest. Who was
+    /// born at its end has none yet, and who was drained had one.
     [[nodiscard]] Result<std::vector<float>> densities() const;
+    /// Refused with emitters or drains.
     [[nodiscard]] Result<NeighbourLists> lists() const;
     /// Milliseconds of each pass since the start, in order of first use; empty where the device has no timestamps.
     [[nodiscard]] std::vector<std::pair<std::string, double>> times() const;

@@ -26,15 +26,27 @@ struct Solver::State {
     Kernels kernels;
     SimulationBuffers buffers;
     StepTimer timer;
-    std::uint32_t count = 0;
-    bool odd = false;         ///< In and Out have changed places
-    bool measurable = false;  ///< the sorted buffers are those of the state
-    double speed = 0.0;       ///< m/s, of the fastest particle
+    SourceBlock sources{};      ///< with the outlets of the step under way
+    StepCounts counts;          ///< of the next step
+    std::uint32_t moved = 0;    ///< particles that the last kept step had
+    std::uint32_t planned = 0;  ///< particles that the grid was made for
+    double time = 0.0;          ///< s, since the particles were given
+    bool odd = false;           ///< In and Out have changed places
+    bool measurable = false;    ///< the sorted buffers are those of the state
+    double speed = 0.0;         ///< m/s, of the fastest particle
 
+    /// A drain may have taken all, and an emitter not have given any yet.
+    [[nodiscard]] bool ready() const { return counts.living > 0 || (changing() && planned > 0); }
+    [[nodiscard]] bool changing() const {
+        return !settings.sources.emitters.empty() || !settings.sources.drains.empty();
+    }
     void run(VkCommandBuffer commands, Kernel kernel, std::uint32_t groups);
     void record(VkCommandBuffer commands);
     [[nodiscard]] Result<StepStatus> tryStep(float dt);
-    [[nodiscard]] Status makeRoom(std::uint32_t particles);
+    /// Buffers and a grid for so many. On an error everything is as before.
+    [[nodiscard]] Status makeRoom(std::uint32_t particles, bool keep_state);
+    /// Decides who is born at the end of a step of that length.
+    [[nodiscard]] Status prepareBirths(double seconds);
     /// A step that is not kept yet; lists that were too short are made longer.
     [[nodiscard]] Result<StepReport> attempt(double seconds);
     void keep(const StepReport& report);

@@ -15,8 +15,6 @@ namespace {
 
 constexpr std::uint32_t kNotFinite = 1;  // FAULT_ of simulation.glsl
 constexpr std::uint32_t kCrowded = 2;
-/// Rows of the lists to begin with; at rest a particle has 32 neighbours.
-constexpr std::uint32_t kFirstNeighbours = 64;
 constexpr std::uint32_t kScanGroup = 8;
 
 }  // namespace
@@ -31,32 +29,39 @@ void Solver::State::run(VkCommandBuffer commands, Kernel kernel, std::uint32_t g
 }
 
 void Solver::State::record(VkCommandBuffer commands) {
-    const std::uint32_t all = groupsOf(count, kGroup);
+    const std::uint32_t entries = groupsOf(counts.entries, kGroup);
+    const std::uint32_t all = groupsOf(counts.living, kGroup);
     const std::uint32_t blocks = groupsOf(groupsOf(grid.cells(), kScanBlock), kScanGroup);
     timer.begin(commands);
     device.fn.vkCmdFillBuffer(commands, buffers[Slot::Cells].buffer(), 0, VK_WHOLE_SIZE, 0);
     device.fn.vkCmdFillBuffer(commands, buffers[Slot::Status].buffer(), 0, VK_WHOLE_SIZE, 0);
+    if (changing()) {
+        device.fn.vkCmdFillBuffer(commands, buffers[Slot::Blocked].buffer(), 0, VK_WHOLE_SIZE, 0);
+    }
     memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
     timer.mark(commands, "clear");
-    run(commands, Kernel::Predict, all);
+    run(commands, Kernel::Predict, entries);
     run(commands, Kernel::ScanSums, blocks);
     run(commands, Kernel::ScanBlocks, 1);
     run(commands, Kernel::ScanCells, blocks);
-    run(commands, Kernel::Scatter, all);
-    run(commands, Kernel::Order, all);
+    run(commands, Kernel::Scatter, entries);
+    run(commands, Kernel::Order, entries);
     run(commands, Kernel::Neighbours, all);
     for (std::uint32_t i = 0; i < settings.iterations; ++i) {
         run(commands, Kernel::Lambda, all);
         run(commands, Kernel::Delta, all);
     }
     run(commands, Kernel::Velocity, all);
-    const bool confined = settings.vorticity > 0.0F;
-    if (confined) {
+    if (settings.vorticity > 0.0F) {
         run(commands, Kernel::Curl, all);
     }
-    run(commands, confined ? Kernel::FinishConfined : Kernel::Finish, all);
+    run(commands, Kernel::Finish, all);
+    if (changing()) {
+        run(commands, Kernel::Retire, all);
+        run(commands, Kernel::Born, groupsOf(counts.births, kGroup));
+    }
     memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                   VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
     const VkBufferCopy whole{0, 0, sizeof(StepStatus)};
@@ -66,8 +71,9 @@ void Solver::State::record(VkCommandBuffer commands) {
 }
 
 Result<StepStatus> Solver::State::tryStep(float dt) {
-    const Parameters parameters = parametersOf(settings, grid, count, buffers.stride(), buffers.neighbours, dt);
+    const Parameters parameters = parametersOf(settings, grid, counts, buffers.stride(), buffers.neighbours, dt);
     std::memcpy(buffers[Slot::Parameters].mapped().data(), &parameters, sizeof parameters);
+    std::memcpy(buffers[Slot::Sources].mapped().data(), &sources, sizeof sources);
     // The host decides after every step whether it counts, so there is never more than one under way.
     if (const Status status = runOnce(device, [this](VkCommandBuffer commands) { record(commands); }); !status) {
         return status.error();
@@ -80,6 +86,9 @@ Result<StepStatus> Solver::State::tryStep(float dt) {
 
 Result<StepReport> Solver::State::attempt(double seconds) {
     measurable = false;
+    if (const Status ready = prepareBirths(seconds); !ready) {
+        return ready.error();
+    }
     for (;;) {
         const Result<StepStatus> tried = tryStep(static_cast<float>(seconds));
         if (!tried) {
@@ -97,8 +106,13 @@ Result<StepReport> Solver::State::attempt(double seconds) {
                          "the state is that before the step; spread the particles, or make their radius smaller"};
         }
         if (status.most_neighbours <= buffers.neighbours) {
-            return StepReport{seconds, double{std::bit_cast<float>(status.speed_bits)},
-                              double{std::bit_cast<float>(status.move_bits)}, status.most_neighbours};
+            return StepReport{seconds,
+                              double{std::bit_cast<float>(status.speed_bits)},
+                              double{std::bit_cast<float>(status.move_bits)},
+                              status.most_neighbours,
+                              counts.births - status.stillborn,
+                              status.stillborn,
+                              status.gone};
         }
         // The lists were cut short, so nothing of this step counts. A quarter of room, so that it does not happen at
         // every step of a fluid that is being pressed together.
@@ -116,22 +130,15 @@ void Solver::State::keep(const StepReport& report) {
     odd = !odd;
     measurable = true;
     speed = report.speed;
-}
-
-Status Solver::State::makeRoom(std::uint32_t particles) {
-    const Grid planned = planGrid(settings, particles);
-    if (particles > buffers.particles || planned.cells() > buffers.cells) {
-        Result<SimulationBuffers> made =
-            createBuffers(device, std::max(particles, buffers.particles),
-                          std::max(kFirstNeighbours, buffers.neighbours), std::max(planned.cells(), buffers.cells));
-        if (!made) {
-            return made.error();
-        }
-        buffers = std::move(made).value();
-        kernels.bind(buffers);
+    time += report.seconds;
+    moved = counts.living;
+    counts.entries = counts.living + counts.births;
+    counts.living = counts.entries - report.blocked - report.drained;
+    counts.next_identity += counts.births;
+    counts.births = 0;
+    for (const Emitter& emitter : settings.sources.emitters) {
+        speed = std::max(speed, double{emitter.speed});  // of who may be born at any time
     }
-    grid = planned;
-    return {};
 }
 
 }  // namespace sluice::vk

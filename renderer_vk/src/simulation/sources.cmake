@@ -3,10 +3,14 @@
 list(APPEND SLUICE_VK_SOURCES
     src/simulation/buffers.cpp
     src/simulation/kernels.cpp
+    src/simulation/check_sources.cpp
     src/simulation/parameters.cpp
     src/simulation/settings.cpp
+    src/simulation/solid.cpp
     src/simulation/solver.cpp
+    src/simulation/solver_room.cpp
     src/simulation/solver_step.cpp
+    src/simulation/sources.cpp
     src/simulation/step_timer.cpp
     src/simulation/time_step.cpp
     src/simulation/transfer.cpp

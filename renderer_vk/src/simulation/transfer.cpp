@@ -42,6 +42,9 @@ Status upload(const Device& device, const Buffer& to, const std::vector<T>& valu
 template <typename T>
 Result<std::vector<T>> download(const Device& device, const Buffer& from, std::size_t count) {
     std::vector<T> values(count);
+    if (count == 0) {
+        return values;
+    }
     const VkDeviceSize bytes = count * sizeof(T);
     Result<Buffer> staging =
         Buffer::create(device, {bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::Readback, "simulation download"});
@@ -82,6 +85,9 @@ Result<std::vector<std::uint32_t>> identities(const Device& device, const Simula
 Status uploadParticles(const Device& device, const SimulationBuffers& buffers, std::span<const float> positions,
                        std::span<const float> velocities) {
     const std::size_t count = positions.size() / 3;
+    if (count == 0) {
+        return {};
+    }
     std::vector<std::uint32_t> identity(count);
     for (std::size_t i = 0; i < count; ++i) {
         identity[i] = static_cast<std::uint32_t>(i);
@@ -94,6 +100,25 @@ Status uploadParticles(const Device& device, const SimulationBuffers& buffers, s
         status = upload(device, buffers[Slot::IdentityIn], identity);
     }
     return status;
+}
+
+Status copyParticles(const Device& device, const SimulationBuffers& from, const SimulationBuffers& to,
+                     std::uint32_t count, bool odd) {
+    if (count == 0) {
+        return {};
+    }
+    return runOnce(device, [&](VkCommandBuffer commands) {
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
+        for (const auto& [slot, bytes] : {std::pair{odd ? Slot::PositionOut : Slot::PositionIn, sizeof(Vector)},
+                                          {odd ? Slot::VelocityOut : Slot::VelocityIn, sizeof(Vector)},
+                                          {odd ? Slot::IdentityOut : Slot::IdentityIn, sizeof(std::uint32_t)}}) {
+            const VkBufferCopy all{0, 0, count * bytes};
+            device.fn.vkCmdCopyBuffer(commands, from[slot].buffer(), to[slot].buffer(), 1, &all);
+        }
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    });
 }
 
 Result<ParticleState> downloadParticles(const Device& device, const SimulationBuffers& buffers, std::uint32_t count,
@@ -110,8 +135,23 @@ Result<ParticleState> downloadParticles(const Device& device, const SimulationBu
     if (!velocity) {
         return velocity.error();
     }
-    return ParticleState{byIdentity(position.value(), identity.value()),
-                         byIdentity(velocity.value(), identity.value())};
+    // Identities have gaps once somebody is gone.
+    std::vector<std::uint32_t> living;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (position.value()[i][3] == 0.0F) {
+            living.push_back(i);
+        }
+    }
+    std::sort(living.begin(), living.end(),
+              [&](std::uint32_t a, std::uint32_t b) { return identity.value()[a] < identity.value()[b]; });
+    ParticleState state;
+    for (const std::uint32_t i : living) {
+        const Vector& x = position.value()[i];
+        const Vector& v = velocity.value()[i];
+        state.position.insert(state.position.end(), x.begin(), x.begin() + 3);
+        state.velocity.insert(state.velocity.end(), v.begin(), v.begin() + 3);
+    }
+    return state;
 }
 
 Result<std::vector<float>> downloadDensities(const Device& device, const SimulationBuffers& buffers,
@@ -124,10 +164,13 @@ Result<std::vector<float>> downloadDensities(const Device& device, const Simulat
     if (!measured) {
         return measured.error();
     }
-    std::vector<float> densities(count);
+    std::vector<std::pair<std::uint32_t, float>> ordered(count);
     for (std::size_t i = 0; i < count; ++i) {
-        densities[identity.value()[i]] = measured.value()[i][3];
+        ordered[i] = {identity.value()[i], measured.value()[i][3]};
     }
+    std::sort(ordered.begin(), ordered.end());
+    std::vector<float> densities(count);
+    std::transform(ordered.begin(), ordered.end(), densities.begin(), [](const auto& pair) { return pair.second; });
     return densities;
 }
 

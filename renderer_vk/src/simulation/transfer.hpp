@@ -14,6 +14,10 @@ namespace sluice::vk {
 /// Into the In buffers of the even state. Velocities: empty or as many.
 [[nodiscard]] Status uploadParticles(const Device& device, const SimulationBuffers& buffers,
                                      std::span<const float> positions, std::span<const float> velocities);
+/// The state, from buffers to larger ones.
+[[nodiscard]] Status copyParticles(const Device& device, const SimulationBuffers& from, const SimulationBuffers& to,
+                                   std::uint32_t count, bool odd);
+/// Without those that are gone.
 [[nodiscard]] Result<ParticleState> downloadParticles(const Device& device, const SimulationBuffers& buffers,
                                                       std::uint32_t count, bool odd);
 /// What the Measure pass has left.

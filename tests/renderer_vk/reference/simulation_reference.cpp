@@ -141,6 +141,25 @@ Vec pushedOut(const SimulationSettings& s, Vec x) {
     return x;
 }
 
+/// Of all force fields, m/s^2.
+Vec fieldsAt(const SimulationSettings& s, const Vec& x) {
+    Vec sum{};
+    for (const ForceField& field : s.sources.fields) {
+        const Vec axis = 1.0 / norm(wide(field.axis)) * wide(field.axis);
+        Vec away = x - wide(field.centre);
+        if (field.kind == ForceKind::Vortex) {
+            away = cross(cross(axis, away), axis);
+        }
+        const double q = field.radius > 0.0F ? norm(away) / double{field.radius} : 0.0;
+        const double strength = q < 1.0 ? double{field.strength} * std::pow(1.0 - q * q, 2) : 0.0;
+        const Vec along = field.kind == ForceKind::Wind    ? axis
+                          : field.kind == ForceKind::Point ? -1.0 / norm(away) * away
+                                                           : 1.0 / norm(away) * cross(axis, away);
+        sum = sum + strength * along;
+    }
+    return sum;
+}
+
 struct Walls {
     Vec gradient{};
     double density = 0.0;
@@ -222,7 +241,8 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
     const std::size_t n = before.position.size();
     std::vector<Vec> x(n);
     for (std::size_t i = 0; i < n; ++i) {
-        x[i] = pushedOut(s, before.position[i] + dt * (before.velocity[i] + dt * wide(s.gravity)));
+        const Vec pull = wide(s.gravity) + fieldsAt(s, before.position[i]);
+        x[i] = pushedOut(s, before.position[i] + dt * (before.velocity[i] + dt * pull));
     }
     const Lists lists = allPairs(x, kernels.h);
     for (std::uint32_t k = 0; k < s.iterations; ++k) {

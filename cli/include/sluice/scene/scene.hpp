@@ -81,6 +81,31 @@ struct SolidPlane {
     Vec3 normal, through;
 };
 
+/// A nozzle. docs/simulation.md says where its particles leave it, and when.
+struct Emitter {
+    std::uint32_t shape = 0;  ///< kEmitterDisc, kEmitterBox
+    Vec3 centre, direction;
+    float width, height;  ///< metres; a disc's diameter, twice
+    float speed;          ///< m/s
+    float rate;           ///< particles per second; 0: as many as there is room for
+    float start, stop;    ///< s; stop 0: never
+};
+inline constexpr std::uint32_t kEmitterDisc = 0, kEmitterBox = 1;
+/// What takes the particles that come into it.
+struct Drain {
+    std::uint32_t shape = 0;  ///< kDrainSphere, kDrainBox
+    Vec3 centre, half;        ///< of a sphere all three are its radius
+};
+inline constexpr std::uint32_t kDrainSphere = 0, kDrainBox = 1;
+/// An acceleration, m/s^2.
+struct ForceField {
+    std::uint32_t kind = 0;  ///< kFieldWind, kFieldPoint, kFieldVortex
+    Vec3 centre, axis;
+    float strength;
+    float radius;  ///< 0: everywhere the same
+};
+inline constexpr std::uint32_t kFieldWind = 0, kFieldPoint = 1, kFieldVortex = 2;
+
 /// What `sluice simulate` makes particles of. docs/simulation.md has the formulas. Frame 1 is time 0.
 struct Simulation {
     float radius = 0.02F;                ///< of a particle, metres
@@ -97,6 +122,9 @@ struct Simulation {
     std::vector<SolidCapsule> capsules;
     std::vector<SolidBox> boxes;
     std::vector<SolidPlane> planes;
+    std::vector<Emitter> emitters;
+    std::vector<Drain> drains;
+    std::vector<ForceField> fields;
 };
 
 struct Scene {

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "simulation/sources.hpp"
+
+namespace sluice::vk {
+namespace {
+
+/// Particles of one layer of one emitter: more are not a nozzle.
+constexpr double kMostSites = 16'384.0;
+
+Error wrong(const std::string& thing, const std::string& expected, const std::string& found) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected {}, found {}", expected, found), ""};
+}
+
+bool finite(std::span<const float> values) {
+    return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
+}
+
+std::string shown(const Triple& v) {
+    return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
+}
+
+bool hasLength(const Triple& v) {
+    return std::hypot(double{v[0]}, double{v[1]}, double{v[2]}) > 1e-6;
+}
+
+Status checkOpening(const Emitter& e, const std::string& thing, float radius) {
+    if (!finite(e.centre) || !finite(e.direction) || !hasLength(e.direction)) {
+        return wrong(thing, "a finite centre and a direction of length > 0",
+                     shown(e.centre) + " and " + shown(e.direction));
+    }
+    if (!(e.width > 0.0F && e.height > 0.0F && std::isfinite(e.width) && std::isfinite(e.height)) ||
+        (e.disc && e.width != e.height)) {
+        return wrong(thing, e.disc ? "a diameter > 0 as width and as height" : "a width and a height > 0",
+                     fmt::format("{} and {}", e.width, e.height));
+    }
+    const double spacing = 2.0 * double{radius};
+    if (double{e.width} / spacing * double{e.height} / spacing > kMostSites) {
+        return wrong(thing, fmt::format("an opening for at most {} particles", kMostSites),
+                     fmt::format("{} by {} m with particles of radius {}", e.width, e.height, radius));
+    }
+    return {};
+}
+
+Status checkFlow(const Emitter& e, const std::string& thing, std::size_t sites, float radius) {
+    if (!(e.speed > 0.0F && e.speed <= 1e4F)) {
+        return wrong(thing, "a speed in (0, 10000] m/s", fmt::format("{}", e.speed));
+    }
+    const double densest = static_cast<double>(sites) * double{e.speed} / (2.0 * double{radius});
+    if (!(e.rate >= 0.0F && double{e.rate} <= densest * (1.0 + 1e-6))) {
+        return wrong(thing,
+                     fmt::format("a rate in [0, {:.6g}] particles per second, which is {} at a time, two radii apart",
+                                 densest, sites),
+                     fmt::format("{}", e.rate));
+    }
+    if (!(e.start >= 0.0F && std::isfinite(e.start) && std::isfinite(e.stop) && (e.stop == 0.0F || e.stop > e.start))) {
+        return wrong(thing, "a start >= 0 and a stop after it, or 0 for none",
+                     fmt::format("{} and {}", e.start, e.stop));
+    }
+    return {};
+}
+
+Status checkSites(std::span<const Triple> sites, const std::string& thing, float radius, const Triple& low,
+                  const Triple& high, std::span<const Solid> solids) {
+    for (const Triple& x : sites) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (x[axis] < low[axis] + 0.5F * radius || x[axis] > high[axis] - 0.5F * radius) {
+                return wrong(thing, fmt::format("an opening within the domain, {} to {}", shown(low), shown(high)),
+                             shown(x));
+            }
+        }
+        for (std::size_t k = 0; k < solids.size(); ++k) {
+            if (distanceTo(solids[k], x) < 0.5 * double{radius}) {
+                return wrong(thing, fmt::format("an opening outside solid {}", k), shown(x));
+            }
+        }
+    }
+    return {};
+}
+
+Status checkNumber(const char* what, std::size_t number, std::size_t most) {
+    return number <= most ? Status{}
+                          : Status{wrong(fmt::format("simulation: {}", what), fmt::format("at most {}", most),
+                                         fmt::format("{}", number))};
+}
+
+Status checkDrain(const Drain& d, const std::string& thing) {
+    if (!finite(d.centre) || !finite(d.half) || *std::min_element(d.half.begin(), d.half.end()) <= 0.0F) {
+        return wrong(thing, "a finite centre and half extents > 0", shown(d.centre) + " and " + shown(d.half));
+    }
+    return {};
+}
+
+Status checkField(const ForceField& f, const std::string& thing) {
+    if (!finite(f.centre) || !finite(f.axis) || !hasLength(f.axis)) {
+        return wrong(thing, "a finite centre and an axis of length > 0", shown(f.centre) + " and " + shown(f.axis));
+    }
+    if (!(std::abs(f.strength) <= 1e4F) || !(f.radius >= 0.0F && std::isfinite(f.radius))) {
+        return wrong(thing, "a strength in [-10000, 10000] m/s^2 and a radius >= 0",
+                     fmt::format("{} and {}", f.strength, f.radius));
+    }
+    return {};
+}
+
+}  // namespace
+
+Status checkSources(const SourceSettings& s, float radius, const Triple& low, const Triple& high,
+                    std::span<const Solid> solids) {
+    for (const auto& [what, number, most] : {std::tuple{"emitters", s.emitters.size(), kMaxEmitters},
+                                             {"drains", s.drains.size(), kMaxDrains},
+                                             {"fields", s.fields.size(), kMaxFields}}) {
+        if (Status status = checkNumber(what, number, most); !status) {
+            return status;
+        }
+    }
+    for (std::size_t i = 0; i < s.emitters.size(); ++i) {
+        const std::string thing = fmt::format("simulation: emitter {}", i);
+        if (Status status = checkOpening(s.emitters[i], thing, radius); !status) {
+            return status;
+        }
+        const std::vector<Triple> sites = outletSites(s.emitters[i], radius);
+        if (Status status = checkFlow(s.emitters[i], thing, sites.size(), radius); !status) {
+            return status;
+        }
+        if (Status status = checkSites(sites, thing, radius, low, high, solids); !status) {
+            return status;
+        }
+    }
+    for (std::size_t i = 0; i < s.drains.size(); ++i) {
+        if (Status status = checkDrain(s.drains[i], fmt::format("simulation: drain {}", i)); !status) {
+            return status;
+        }
+    }
+    for (std::size_t i = 0; i < s.fields.size(); ++i) {
+        if (Status status = checkField(s.fields[i], fmt::format("simulation: field {}", i)); !status) {
+            return status;
+        }
+    }
+    return {};
+}
+
+}  // namespace sluice::vk
