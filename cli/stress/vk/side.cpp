@@ -4,18 +4,13 @@
 #include <volk.h>
 
 #include <array>
-#include <span>
 #include <utility>
 
-#include "device/capabilities.hpp"
 #include "device/device.hpp"
-#include "device/one_shot.hpp"
 #include "device/structs.hpp"
-#include "memory/buffer.hpp"
-#include "memory/image.hpp"
 #include "stress/vk/extra_timeline.hpp"
 #include "stress/vk/kernel.hpp"
-#include "stress/vk/shared_buffer.hpp"
+#include "stress/vk/slot_memory.hpp"
 #include "sync/binary_pool.hpp"
 #include "sync/renderer_timeline.hpp"
 
@@ -31,12 +26,6 @@ constexpr std::uint32_t kCommandBuffers = 64;
 /// that used it last came before that.
 constexpr std::uint32_t kBusy = kCommandBuffers - 4;
 constexpr std::uint64_t kReuseTimeoutNs = 10'000'000'000;
-
-SluiceFormat sharedFormat(Resource resource) {
-    return resource == Resource::Colour ? SLUICE_FORMAT_RGBA8
-           : resource == Resource::D32F ? SLUICE_FORMAT_D32F
-                                        : SLUICE_FORMAT_R32F;
-}
 
 class VkHere final : public VkSide {
   public:
@@ -64,8 +53,7 @@ class VkHere final : public VkSide {
 struct VkHere::State {
     std::unique_ptr<vk::Device> device;
     Storage storage;
-    std::vector<vk::Image> images;                       // by slot, unless the resource is a buffer
-    std::vector<std::unique_ptr<SharedBuffer>> buffers;  // by slot, if it is
+    std::unique_ptr<SlotMemory> slots;
     std::unique_ptr<Kernel> kernel;
     std::unique_ptr<vk::RendererTimeline> timeline;
     std::array<std::unique_ptr<ExtraTimeline>, 2> relay;
@@ -87,22 +75,13 @@ struct VkHere::State {
 
     void clear() {
         kernel.reset();
-        images.clear();
-        buffers.clear();
+        slots.reset();
         timeline.reset();
         relay = {};
     }
 
-    [[nodiscard]] bool isBuffer() const { return storage.resource == Resource::Buffer; }
-    [[nodiscard]] SlotRef ref(std::uint32_t slot) const {
-        return isBuffer() ? SlotRef{VK_NULL_HANDLE, VK_NULL_HANDLE, buffers[slot]->buffer()}
-                          : SlotRef{images[slot].image(), images[slot].view(), VK_NULL_HANDLE};
-    }
     Status createCommands();
-    Status createSlots();
     Status createTimelines();
-    void transfer(VkCommandBuffer buffer, std::span<const std::uint32_t> slots, bool acquire,
-                  std::uint32_t wrong_layout = kNoSlot) const;
     Status record(VkCommandBuffer buffer, const Turn& turn, const Hand& hand);
 };
 
@@ -118,40 +97,6 @@ Status VkHere::State::createCommands() {
         result = device->fn.vkAllocateCommandBuffers(device->handle, &allocate, commands.data());
     }
     return result == VK_SUCCESS ? Status{} : Status{vulkanError(result, "command buffers of the stress test")};
-}
-
-Status VkHere::State::createSlots() {
-    for (std::uint32_t slot = 0; slot < storage.slots.count(); ++slot) {
-        const bool shared = slot < storage.slots.shared();
-        if (isBuffer()) {
-            auto buffer = SharedBuffer::create(*device, VkDeviceSize{storage.texels()} * 4, shared);
-            if (!buffer) {
-                return buffer.error();
-            }
-            buffers.push_back(std::move(buffer).value());
-            continue;
-        }
-        auto image = vk::Image::create(
-            *device, {formatOf(storage.resource), storage.width, storage.height,
-                      vk::sharedUsage(device->instance_fn, device->physical, sharedFormat(storage.resource)), shared,
-                      "stress slot"});
-        if (!image) {
-            return image.error();
-        }
-        images.push_back(std::move(image).value());
-    }
-    if (isBuffer()) {
-        return {};
-    }
-    return vk::runOnce(*device, [this](VkCommandBuffer buffer) {
-        std::vector<std::uint32_t> all;
-        for (std::uint32_t slot = 0; slot < images.size(); ++slot) {
-            vk::fullBarrier(*device, buffer, images[slot].image(), images[slot].aspect(), VK_IMAGE_LAYOUT_UNDEFINED,
-                            VK_IMAGE_LAYOUT_GENERAL);
-            all.push_back(slot);
-        }
-        transfer(buffer, all, false);
-    });
 }
 
 Status VkHere::State::createTimelines() {
@@ -176,36 +121,6 @@ Status VkHere::State::createTimelines() {
     return {};
 }
 
-/// Between the two APIs for shared slots; within the queue for the side's own.
-void VkHere::State::transfer(VkCommandBuffer buffer, std::span<const std::uint32_t> slots, bool acquire,
-                             std::uint32_t wrong_layout) const {
-    for (const std::uint32_t slot : slots) {
-        const bool shared = slot < storage.slots.shared();
-        const std::uint32_t external = shared ? VK_QUEUE_FAMILY_EXTERNAL : VK_QUEUE_FAMILY_IGNORED;
-        const std::uint32_t here = shared ? device->queue_family : VK_QUEUE_FAMILY_IGNORED;
-        const std::uint32_t from = acquire ? external : here;
-        const std::uint32_t to = acquire ? here : external;
-        if (!isBuffer()) {
-            const auto old = slot == wrong_layout ? static_cast<VkImageLayout>(kWrongLayout) : VK_IMAGE_LAYOUT_GENERAL;
-            vk::fullBarrier(*device, buffer, images[slot].image(), images[slot].aspect(), old, VK_IMAGE_LAYOUT_GENERAL,
-                            from, to);
-            continue;
-        }
-        auto barrier = vkStruct<VkBufferMemoryBarrier2>(VK_STRUCTURE_TYPE_BUFFER_MEMORY_BARRIER_2);
-        barrier.srcStageMask = barrier.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-        barrier.srcAccessMask = VK_ACCESS_2_MEMORY_WRITE_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
-        barrier.srcQueueFamilyIndex = from;
-        barrier.dstQueueFamilyIndex = to;
-        barrier.buffer = buffers[slot]->buffer();
-        barrier.size = VK_WHOLE_SIZE;
-        auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-        dependency.bufferMemoryBarrierCount = 1;
-        dependency.pBufferMemoryBarriers = &barrier;
-        device->fn.vkCmdPipelineBarrier2(buffer, &dependency);
-    }
-}
-
 Status VkHere::State::record(VkCommandBuffer buffer, const Turn& turn, const Hand& hand) {
     auto begin = vkStruct<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
     begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
@@ -214,19 +129,19 @@ Status VkHere::State::record(VkCommandBuffer buffer, const Turn& turn, const Han
     }
     std::vector<std::uint32_t> touched = turn.inputs;
     touched.push_back(turn.output);
-    transfer(buffer, touched, true, hand.wrong_layout);
+    slots->transfer(buffer, touched, true, hand.wrong_layout);
     // Bindings without an input show something else that is readable, and the shader does not read it.
     const std::uint32_t other = storage.slots.own(turn.output == storage.slots.own(0) ? 1 : 0);
     std::array<SlotRef, kMaxInputs> inputs{};
     for (std::uint32_t j = 0; j < kMaxInputs; ++j) {
-        inputs.at(j) = ref(j < turn.inputs.size() ? turn.inputs[j] : other);
+        inputs.at(j) = slots->ref(j < turn.inputs.size() ? turn.inputs[j] : other);
     }
     const TurnConstants constants{turn.salt, static_cast<std::uint32_t>(turn.inputs.size()), storage.width,
                                   storage.texels()};
-    if (Status status = kernel->record(buffer, inputs, ref(turn.output), constants); !status) {
+    if (Status status = kernel->record(buffer, inputs, slots->ref(turn.output), constants); !status) {
         return status;
     }
-    transfer(buffer, touched, false);
+    slots->transfer(buffer, touched, false);
     const VkResult result = device->fn.vkEndCommandBuffer(buffer);
     return result == VK_SUCCESS ? Status{} : Status{vulkanError(result, "vkEndCommandBuffer")};
 }
@@ -245,19 +160,16 @@ Status VkHere::allocate(const Storage& storage) {
         return kernel.error();
     }
     state_->kernel = std::move(kernel).value();
-    if (Status status = state_->createSlots(); !status) {
-        return status;
+    auto slots = SlotMemory::create(*state_->device, storage);
+    if (!slots) {
+        return slots.error();
     }
+    state_->slots = std::move(slots).value();
     return state_->createTimelines();
 }
 
 Result<ExportedSlot> VkHere::exportSlot(std::uint32_t slot) {
-    auto fd = state_->isBuffer() ? state_->buffers[slot]->exportFd() : state_->images[slot].exportFd();
-    if (!fd) {
-        return fd.error();
-    }
-    return ExportedSlot{std::move(fd).value(), state_->isBuffer() ? state_->buffers[slot]->allocationSize()
-                                                                  : state_->images[slot].allocationSize()};
+    return state_->slots->exportSlot(slot);
 }
 
 Status VkHere::submit(const Turn& turn, const Hand& hand) {
@@ -321,34 +233,7 @@ bool VkHere::drain(std::uint64_t timeout_ns) {
 }
 
 Result<std::vector<std::byte>> VkHere::read(std::uint32_t slot) {
-    State& s = *state_;
-    const std::size_t bytes = std::size_t{s.storage.texels()} * 4;
-    if (!s.isBuffer()) {
-        return vk::downloadImage(*s.device, s.images[slot], 4);
-    }
-    auto staging = vk::Buffer::create(
-        *s.device, {bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, vk::BufferPlace::Readback, "stress read-back"});
-    if (!staging) {
-        return staging.error();
-    }
-    Status copied = vk::runOnce(*s.device, [&](VkCommandBuffer commands) {
-        const VkBufferCopy region{0, 0, bytes};
-        s.device->fn.vkCmdCopyBuffer(commands, s.buffers[slot]->buffer(), staging.value().buffer(), 1, &region);
-        auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-        auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &barrier;
-        s.device->fn.vkCmdPipelineBarrier2(commands, &dependency);
-    });
-    if (!copied) {
-        return copied.error();
-    }
-    const auto mapped = staging.value().mapped();
-    return std::vector<std::byte>(mapped.begin(), mapped.end());
+    return state_->slots->read(slot);
 }
 
 }  // namespace
