@@ -3,11 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <tuple>
 
 #include "ledger_rig.hpp"
+#include "sluice/fd.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::host::test {
@@ -136,6 +138,59 @@ TEST_F(LedgerTest, ARendererThatTellsNothingIsToldOnceAndCostsNoMemory) {
     ASSERT_TRUE(ledger_->unchecked());
     EXPECT_EQ(ledger_->unchecked()->since_frame, 1U);
 }
+
+/// One thing about what crosses that is not so, and the one finding that says it.
+struct Lie {
+    const char* name;
+    ImageLie image;
+    InfoLie info;
+    const char* finding;  ///< nullptr: none
+};
+
+class SharedMemory : public LedgerTest, public ::testing::WithParamInterface<Lie> {};
+
+TEST_P(SharedMemory, IsJudgedLiveAsItIsFromItsLog) {
+    const std::string path = std::filesystem::path(::testing::TempDir()) / "shared.sluicelog";
+    auto writer = ledger::LogWriter::create(path);
+    ASSERT_TRUE(writer) << writer.error().message();
+    control_->image_lie = GetParam().image;
+    control_->info_lie = GetParam().info;
+    ASSERT_NO_FATAL_FAILURE(start(SLUICE_TIMELINE_BRIDGED, 2, std::nullopt, std::move(writer).value()));
+    frames(3, 1);
+    ASSERT_TRUE(host_->resize(67, 43));
+    ASSERT_NO_FATAL_FAILURE(makeScreen(67, 43));
+    frames(3, 1);
+    finish();
+    std::for_each_n(control_->lost.begin(), control_->lost_count, [](int fd) { UniqueFd{fd}.reset(); });
+    EXPECT_EQ(control_->lost_count, GetParam().image == ImageLie::LostDescriptor ? 16U : 0U)
+        << "two sets of four, twice";
+
+    ledger::Ledger again;
+    ASSERT_TRUE(ledger::readLog(path, ledger::sinkInto(again)));
+    std::filesystem::remove(path);
+    again.finish(ledger::End::Closed);
+    const std::vector<ledger::Finding> live = ledger_->findings();
+    ASSERT_EQ(again.findings().size(), live.size());
+    for (std::size_t i = 0; i < live.size(); ++i) {
+        EXPECT_EQ(again.findings()[i].sentence, live[i].sentence);
+    }
+    EXPECT_EQ(fresh_, 6U);
+    if (GetParam().finding == nullptr) {
+        EXPECT_THAT(found(), IsEmpty()) << told(*ledger_);
+    } else {
+        EXPECT_THAT(found(), ElementsAre(Pair(GetParam().finding, 16U))) << told(*ledger_);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Software, SharedMemory,
+                         ::testing::Values(Lie{"Right", ImageLie::None, InfoLie::None, nullptr},
+                                           Lie{"NotDedicated", ImageLie::NotDedicated, InfoLie::None,
+                                               "import-dedicated-mismatch"},
+                                           Lie{"Larger", ImageLie::Larger, InfoLie::None, "import-size-mismatch"},
+                                           Lie{"LostDescriptor", ImageLie::LostDescriptor, InfoLie::None, "fd-leaked"},
+                                           Lie{"Device", ImageLie::None, InfoLie::Device, "import-uuid-mismatch"},
+                                           Lie{"Driver", ImageLie::None, InfoLie::Driver, "import-uuid-mismatch"}),
+                         [](const auto& param) { return std::string(param.param.name); });
 
 TEST_F(LedgerTest, TheLogHoldsWhatTheLedgerWasTold) {
     const std::string path = std::filesystem::path(::testing::TempDir()) / "live.sluicelog";

@@ -16,7 +16,8 @@ namespace sluice::host {
 
 namespace {
 
-SluiceCreateInfo createInfo(const FluidHostConfig& config, SluiceTimelineKind timeline) {
+SluiceCreateInfo createInfo(const FluidHostConfig& config, const SluiceHostCapabilities& host,
+                            SluiceTimelineKind timeline) {
     auto info = sized<SluiceCreateInfo>();
     info.width = config.width;
     info.height = config.height;
@@ -25,7 +26,7 @@ SluiceCreateInfo createInfo(const FluidHostConfig& config, SluiceTimelineKind ti
     info.validation = config.validation ? 1 : 0;
     info.outputs = config.outputs;
     info.host_depth_format = config.host_depth;
-    info.host = queryCapabilities();
+    info.host = host;
     return info;
 }
 
@@ -40,7 +41,9 @@ bool failedAfterTheWait(SluiceResult code) {
 
 Status Connection::attempt(const PluginLibrary& library, SluiceTimelineKind kind, Stage& stage) {
     stage = Stage::Renderer;
-    Result<Renderer> created = Renderer::create(library.api(), services.table(), createInfo(config, kind));
+    capabilities = queryCapabilities();
+    Result<Renderer> created =
+        Renderer::create(library.api(), services.table(), createInfo(config, capabilities, kind));
     if (!created) {
         return created.error();
     }
@@ -57,7 +60,7 @@ Status Connection::attempt(const PluginLibrary& library, SluiceTimelineKind kind
     sets.emplace(info.image_sets, services.images(), config.trace);
     if (config.ledger != nullptr) {
         feed.emplace(*config.ledger, settled, info.image_sets);
-        feed->imagesMade(sharedRoles());
+        tellImages();
         services.tellFeed(&*feed);
     }
     stage = Stage::Timeline;
@@ -66,6 +69,7 @@ Status Connection::attempt(const PluginLibrary& library, SluiceTimelineKind kind
     deps.renderer = renderer.handle();
     deps.trace = config.trace;
     deps.feed = feed ? &*feed : nullptr;
+    deps.shares = shares ? &*shares : nullptr;
     deps.log = [this](SluiceLogLevel level, std::string_view text) { services.log(level, text); };
     Result<std::unique_ptr<HostTimeline>> made = makeHostTimeline(settled, deps);
     if (!made) {
@@ -107,12 +111,18 @@ Status Connection::open(const PluginLibrary& library) {
     return {};
 }
 
-void Connection::close() {
+void Connection::close(bool gl_finished) {
     // The bridge may still owe values that the renderer's queue waits for, so it drains before the renderer goes.
     timeline.reset();
     renderer = Renderer{};
     services.tellFeed(nullptr);
+    if (feed && gl_finished) {
+        feed->imagesDestroyed(true);  // the renderer waits for its device before it goes
+    }
     feed.reset();
+    if (shares) {
+        shares->forget();
+    }
     services.images().clear();
 }
 
@@ -122,6 +132,11 @@ std::uint32_t Connection::sharedRoles() const {
         roles |= services.images().texture(role, 0) != 0 ? SLUICE_ROLE_BIT(role) : 0;
     }
     return roles;
+}
+
+void Connection::tellImages() {
+    feed->imagesMade(sharedRoles());
+    shares->imagesMade(info.capabilities, capabilities);
 }
 
 Status Connection::adoptImages() {
@@ -155,7 +170,12 @@ Status Connection::resize(std::uint32_t width, std::uint32_t height) {
     sets->reset();
     if (feed) {
         feed->imagesDestroyed(drained);
-        feed->imagesMade(status ? sharedRoles() : 0);
+        if (status) {
+            tellImages();
+        } else {
+            feed->imagesMade(0);
+            shares->forget();
+        }
     }
     if (!status) {
         services.images().clear();

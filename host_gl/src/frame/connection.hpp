@@ -19,7 +19,8 @@ namespace sluice::host {
 /// neither moves nor copies. GL thread.
 struct Connection {
     explicit Connection(const FluidHostConfig& wanted)
-        : config(wanted), services(wanted.log, wanted.trace, wanted.ledger != nullptr) {}
+        : config(wanted),
+          services(wanted.log, wanted.trace, wanted.ledger != nullptr ? &shares.emplace(*wanted.ledger) : nullptr) {}
     Connection(const Connection&) = delete;
     Connection& operator=(const Connection&) = delete;
     ~Connection() { close(); }
@@ -28,15 +29,18 @@ struct Connection {
     [[nodiscard]] Status open(const PluginLibrary& library);
     /// Replaces every shared image. GL must have finished with them. On failure there are none until a resize succeeds.
     [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height);
-    void close();
+    /// `gl_finished`: GL is through with the images.
+    void close(bool gl_finished = true);
 
     FluidHostConfig config;
+    std::optional<ledger::ShareFeed> shares;  ///< empty without a ledger, as `feed`
     HostServices services;
     Renderer renderer;
     SluiceRendererInfo info{};
+    SluiceHostCapabilities capabilities{};
     std::optional<LinearDepthPass> linear;  ///< where HOST_DEPTH is linear
     std::optional<ImageSets> sets;
-    std::optional<ledger::HandOffFeed> feed;  ///< empty without a ledger
+    std::optional<ledger::HandOffFeed> feed;
     std::unique_ptr<HostTimeline> timeline;
 
   private:
@@ -44,6 +48,8 @@ struct Connection {
     enum class Stage : std::uint8_t { Renderer, Timeline, Done };
     [[nodiscard]] Status attempt(const PluginLibrary& library, SluiceTimelineKind kind, Stage& stage);
     [[nodiscard]] Status adoptImages();
+    /// Tells the ledger of the images that there are now.
+    void tellImages();
     /// SLUICE_ROLE_BITs of what every set has.
     [[nodiscard]] std::uint32_t sharedRoles() const;
 };

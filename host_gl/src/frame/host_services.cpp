@@ -12,6 +12,19 @@ namespace sluice::host {
 
 namespace {
 
+/// Runs `take`, which consumes the descriptor of `image` if it succeeds; the ledger hears whose it is then.
+template <typename Take>
+Status takeOffer(ledger::ShareFeed* shares, const SluiceImageExport& image, const Take& take) {
+    if (shares != nullptr) {
+        shares->offered(image);
+    }
+    Status status = take();
+    if (!status && shares != nullptr) {
+        shares->handedBack(image);
+    }
+    return status;
+}
+
 /// The renderer must give back the pointer that came with the services.
 Status checkUser(const void* user) {
     if (user == nullptr) {
@@ -22,13 +35,14 @@ Status checkUser(const void* user) {
 
 }  // namespace
 
-HostServices::HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace, bool ledger)
-    : log_(std::move(log)), trace_(trace) {
+HostServices::HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace,
+                           ledger::ShareFeed* shares)
+    : log_(std::move(log)), trace_(trace), shares_(shares) {
     table_.struct_size = sizeof(table_);
     table_.abi_version = SLUICE_ABI_VERSION;
     table_.user = this;
     table_.log = &HostServices::logService;
-    table_.trace = trace != nullptr || ledger ? &HostServices::traceService : nullptr;
+    table_.trace = trace != nullptr || shares != nullptr ? &HostServices::traceService : nullptr;
     table_.share_image = &HostServices::shareService;
     table_.retire_image = &HostServices::retireService;
     table_.canary = &HostServices::canaryService;
@@ -69,8 +83,13 @@ void HostServices::traceService(void* user, const SluiceTraceEvent* event) {
     if (self.trace_ != nullptr) {
         self.trace_->record(*event);
     }
-    ledger::HandOffFeed* feed = self.feed_;
-    if (feed != nullptr && event->struct_size >= kAbiMinimum<SluiceTraceEvent>) {
+    if (event->struct_size < kAbiMinimum<SluiceTraceEvent>) {
+        return;
+    }
+    if (self.shares_ != nullptr) {
+        self.shares_->trace(readAbiStruct(*event));
+    }
+    if (ledger::HandOffFeed* feed = self.feed_; feed != nullptr) {
         static_cast<void>(guarded(nullptr, [&]() -> Status {
             feed->trace(readAbiStruct(*event));
             return {};
@@ -86,12 +105,16 @@ SluiceResult HostServices::shareService(void* user, const SluiceImageExport* ima
         if (Status status = checkAbiStruct(image, "image"); !status) {
             return status;
         }
-        Result<ImportedImage> imported = importImage(readAbiStruct(*image));
-        if (!imported) {
-            return imported.error();
-        }
-        static_cast<HostServices*>(user)->images_.put(std::move(imported).value());
-        return {};
+        auto& self = *static_cast<HostServices*>(user);
+        const SluiceImageExport offer = readAbiStruct(*image);
+        return takeOffer(self.shares_, offer, [&]() -> Status {
+            Result<ImportedImage> imported = importImage(offer, self.shares_);
+            if (!imported) {
+                return imported.error();
+            }
+            self.images_.put(std::move(imported).value());
+            return {};
+        });
     });
 }
 
@@ -110,7 +133,13 @@ SluiceResult HostServices::canaryService(void* user, const SluiceImageExport* im
         if (Status status = checkAbiStruct(image, "image"); !status) {
             return status;
         }
-        return runCanary(readAbiStruct(*image), seed);
+        ledger::ShareFeed* shares = static_cast<HostServices*>(user)->shares_;
+        const SluiceImageExport offer = readAbiStruct(*image);
+        Status status = takeOffer(shares, offer, [&] { return runCanary(offer, seed, shares); });
+        if (shares != nullptr) {
+            shares->canaryEnds();
+        }
+        return status;
     });
 }
 

@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "share/image_table.hpp"
-#include "sluice/ledger/hand_off_feed.hpp"
+#include "sluice/ledger/share_feed.hpp"
 #include "sluice/plugin.h"
 #include "sluice/trace.hpp"
 
@@ -19,8 +19,10 @@ namespace sluice::host {
 /// called on any thread and is called on one at a time.
 class HostServices {
   public:
-    /// `ledger`: the renderer shall send its events even when `trace` is nullptr, for tellFeed().
-    HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace, bool ledger = false);
+    /// With `shares` the renderer sends its events even when `trace` is nullptr, for it and for tellFeed(); it must
+    /// outlive the services.
+    HostServices(std::function<void(SluiceLogLevel, std::string_view)> log, Trace* trace,
+                 ledger::ShareFeed* shares = nullptr);
     ~HostServices() = default;
     HostServices(const HostServices&) = delete;
     HostServices& operator=(const HostServices&) = delete;
@@ -35,6 +37,7 @@ class HostServices {
   private:
     std::function<void(SluiceLogLevel, std::string_view)> log_;
     Trace* trace_;
+    ledger::ShareFeed* shares_;
     std::atomic<ledger::HandOffFeed*> feed_{nullptr};
     ImageTable images_;
     SluiceHostServices table_{};

@@ -22,7 +22,7 @@ RendererLife::~RendererLife() {
         // GL has finished; what could not be kept of the last frame is its times.
     }
     const auto scope = watch_.during("destroy", 0);
-    link_.close();
+    link_.close(glMayFinish());
 }
 
 Status RendererLife::start(const PluginLibrary& library) {
@@ -101,11 +101,15 @@ std::uint32_t RendererLife::texture(SluiceImageRole role) const {
     return link_.services.images().texture(role, submitted_ == 0 ? 0 : imageSetOf(submitted_, link_.info.image_sets));
 }
 
-void RendererLife::finishGl() {
+bool RendererLife::glMayFinish() const {
     const bool on_gpu = link_.timeline != nullptr && (link_.timeline->kind() == SLUICE_TIMELINE_NATIVE ||
                                                       link_.timeline->kind() == SLUICE_TIMELINE_BINARY);
     // A GL wait that was recorded before the device was lost might never end.
-    if (!(lost_ && on_gpu) && !gl_lost_) {
+    return !(lost_ && on_gpu) && !gl_lost_;
+}
+
+void RendererLife::finishGl() {
+    if (glMayFinish()) {
         const std::uint64_t begin = traceClock(link_.config.trace, feed());
         glFinish();
         if (feed() != nullptr) {

@@ -57,6 +57,8 @@ class RendererLife {
     /// nullptr without a ledger.
     [[nodiscard]] ledger::HandOffFeed* feed() { return link_.feed ? &*link_.feed : nullptr; }
     void tellSubmit(std::uint64_t frame);
+    /// False when nothing may be waited for any more.
+    [[nodiscard]] bool glMayFinish() const;
     /// Waits until the GL command stream has ended and records its passes.
     void finishGl();
     [[nodiscard]] Status checkScreen(const Screen& screen, const char* call) const;

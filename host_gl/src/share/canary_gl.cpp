@@ -12,6 +12,7 @@
 #include "screen/gl_guards.hpp"
 #include "share/gl_errors.hpp"
 #include "share/imported_image.hpp"
+#include "share/told_fd.hpp"
 #include "sluice/canary.hpp"
 #include "sluice/fd.hpp"
 #include "sluice/format.hpp"
@@ -48,10 +49,10 @@ Status exchangePatterns(const ImportedImage& image, const FormatInfo& format, st
 
 }  // namespace
 
-Status runCanary(const SluiceImageExport& image, std::uint32_t seed) {
+Status runCanary(const SluiceImageExport& image, std::uint32_t seed, ledger::ShareFeed* feed) {
     // The descriptor must survive a texel that differs, so the import consumes a duplicate.
     UniqueFd given(image.fd);
-    UniqueFd copy = given.duplicate();
+    ToldFd copy(given.duplicate(), feed);
     static_cast<void>(given.release());
     if (image.fd >= 0 && !copy.valid()) {
         return Error{SLUICE_ERROR_IMPORT, "canary", fmt::format("file descriptor {} cannot be duplicated", image.fd),
@@ -59,13 +60,16 @@ Status runCanary(const SluiceImageExport& image, std::uint32_t seed) {
     }
     SluiceImageExport duplicate = image;
     duplicate.fd = copy.get();
-    Result<ImportedImage> imported = importImage(duplicate);
+    Result<ImportedImage> imported = importImage(duplicate, feed);
     if (!imported) {
         return imported.error();
     }
-    static_cast<void>(copy.release());
+    copy.closedElsewhere();
     if (Status status = exchangePatterns(imported.value(), *findFormat(image.format), seed); !status) {
         return status;
+    }
+    if (feed != nullptr) {
+        feed->closed(image.fd);
     }
     UniqueFd{image.fd}.reset();
     return {};

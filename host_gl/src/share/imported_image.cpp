@@ -9,6 +9,7 @@
 
 #include "screen/gl_guards.hpp"
 #include "share/gl_errors.hpp"
+#include "share/told_fd.hpp"
 #include "sluice/fd.hpp"
 #include "sluice/format.hpp"
 
@@ -62,27 +63,42 @@ void closeIfStillOpen(int number, int original) {
     }
 }
 
-Status importMemory(GLuint memory, const SluiceImageExport& image, const std::string& thing) {
+Status importMemory(GLuint memory, const SluiceImageExport& image, const std::string& thing, ledger::ShareFeed* feed) {
     if (image.dedicated != 0) {
         const GLint yes = GL_TRUE;
         glMemoryObjectParameterivEXT(memory, GL_DEDICATED_MEMORY_OBJECT_EXT, &yes);
     }
     // GL gets a duplicate, so that whatever it does with that one, the caller's is open until all has succeeded.
     UniqueFd original(image.fd);
-    UniqueFd copy = original.duplicate();
+    ToldFd copy(original.duplicate(), feed);
     static_cast<void>(original.release());
     if (!copy.valid()) {
         return Error{SLUICE_ERROR_IMPORT, thing, fmt::format("file descriptor {} cannot be duplicated", image.fd),
                      "raise the limit of open files (ulimit -n) or look for a leak"};
     }
-    const int number = copy.release();
-    glImportMemoryFdEXT(memory, image.allocation_size, GL_HANDLE_TYPE_OPAQUE_FD_EXT, number);
+    glImportMemoryFdEXT(memory, image.allocation_size, GL_HANDLE_TYPE_OPAQUE_FD_EXT, copy.get());
     if (const std::string errors = takeGlErrors(); !errors.empty()) {
-        closeIfStillOpen(number, image.fd);
+        closeIfStillOpen(copy.gone(), image.fd);
         return Error{SLUICE_ERROR_IMPORT, thing, fmt::format("glImportMemoryFdEXT raised {}", errors),
                      "host and renderer must run on the same device and driver"};
     }
+    copy.given();
     return {};
+}
+
+/// What GL says it was told, which need not be what it should have been. The texture must be bound.
+ledger::MemoryFacts toldToGl(GLuint memory, const SluiceImageExport& image) {
+    // A driver that does not answer leaves what it was told.
+    GLint dedicated = image.dedicated != 0 ? GL_TRUE : GL_FALSE;
+    GLint tiling = GL_OPTIMAL_TILING_EXT;
+    glGetMemoryObjectParameterivEXT(memory, GL_DEDICATED_MEMORY_OBJECT_EXT, &dedicated);
+    glGetTexParameteriv(GL_TEXTURE_2D, GL_TEXTURE_TILING_EXT, &tiling);
+    clearGlErrors();
+    ledger::MemoryFacts facts;
+    facts.size = image.allocation_size;  // GL has no query for it
+    facts.tiling = tiling == GL_LINEAR_TILING_EXT ? 1 : 0;
+    facts.dedicated = dedicated == GL_FALSE ? 0 : 1;
+    return facts;
 }
 
 /// The texture must be bound. Mesa 22.3.6 raises no error for memory that is too small or no memory at all: the texture
@@ -124,7 +140,7 @@ ImportedImage::~ImportedImage() {
     }
 }
 
-Result<ImportedImage> importImage(const SluiceImageExport& image) {
+Result<ImportedImage> importImage(const SluiceImageExport& image, ledger::ShareFeed* feed) {
     const FormatInfo* format = findFormat(image.format);
     const std::string thing = describe(image, format);
     if (Status status = checkDescription(image, format, thing); !status) {
@@ -136,13 +152,17 @@ Result<ImportedImage> importImage(const SluiceImageExport& image) {
     imported.description_.fd = -1;
     glCreateMemoryObjectsEXT(1, &imported.memory_);
     glGenTextures(1, &imported.texture_);
-    if (Status status = importMemory(imported.memory_, image, thing); !status) {
+    if (Status status = importMemory(imported.memory_, image, thing, feed); !status) {
         return status.error();
     }
     const TextureGuard guard;
     glBindTexture(GL_TEXTURE_2D, imported.texture_);
     if (Status status = defineStorage(imported.memory_, image, *format, thing); !status) {
         return status.error();
+    }
+    if (feed != nullptr) {
+        feed->imported(image, toldToGl(imported.memory_, image));
+        feed->closed(image.fd);
     }
     UniqueFd{image.fd}.reset();  // accepted: what the contract calls ours is closed, GL holds its own
     return imported;

@@ -8,6 +8,10 @@
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
 
+namespace sluice::ledger {
+class ShareFeed;
+}
+
 namespace sluice::host {
 
 /// Owns a GL texture and the memory object under it. Move-only; freed with the GL context current.
@@ -29,7 +33,7 @@ class ImportedImage {
     [[nodiscard]] std::uint64_t bytes() const { return description_.allocation_size; }
 
   private:
-    friend Result<ImportedImage> importImage(const SluiceImageExport& image);
+    friend Result<ImportedImage> importImage(const SluiceImageExport& image, ledger::ShareFeed* feed);
     void swap(ImportedImage& other) noexcept {
         std::swap(texture_, other.texture_);
         std::swap(memory_, other.memory_);
@@ -41,7 +45,8 @@ class ImportedImage {
 };
 
 /// Binds the exported memory to a new texture (nearest, clamped, one level). On success image.fd has been consumed; on
-/// failure it is untouched and still the caller's. Leaves bindings as found; clears GL's error flags.
-[[nodiscard]] Result<ImportedImage> importImage(const SluiceImageExport& image);
+/// failure it is untouched and still the caller's. Leaves bindings as found; clears GL's error flags. `feed` hears of
+/// every descriptor and of what GL was told; nullptr: nobody does.
+[[nodiscard]] Result<ImportedImage> importImage(const SluiceImageExport& image, ledger::ShareFeed* feed = nullptr);
 
 }  // namespace sluice::host

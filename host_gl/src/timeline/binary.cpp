@@ -26,7 +26,7 @@ class BinaryTimeline final : public HostTimeline {
             return {};
         }
         const std::uint64_t begin = traceClock(deps_.trace);
-        Result<GlSemaphore> semaphore = importValue(SLUICE_HOST_TO_RENDERER, value);
+        Result<GlSemaphore> semaphore = GlSemaphore::import(deps_, SLUICE_HOST_TO_RENDERER, value, nullptr);
         if (!semaphore) {
             return semaphore.error();
         }
@@ -44,7 +44,7 @@ class BinaryTimeline final : public HostTimeline {
             return {};
         }
         const std::uint64_t begin = traceClock(deps_.trace);
-        Result<GlSemaphore> semaphore = importValue(SLUICE_RENDERER_TO_HOST, value);
+        Result<GlSemaphore> semaphore = GlSemaphore::import(deps_, SLUICE_RENDERER_TO_HOST, value, nullptr);
         if (!semaphore) {
             return semaphore.error();
         }
@@ -59,7 +59,7 @@ class BinaryTimeline final : public HostTimeline {
     /// Imports the semaphores of the first frame and lets go of them: whether the two drivers understand each other.
     [[nodiscard]] Status trial() const {
         for (const SluiceDirection direction : {SLUICE_HOST_TO_RENDERER, SLUICE_RENDERER_TO_HOST}) {
-            if (Result<GlSemaphore> semaphore = importValue(direction, 1); !semaphore) {
+            if (Result<GlSemaphore> semaphore = GlSemaphore::import(deps_, direction, 1, nullptr); !semaphore) {
                 return semaphore.error();
             }
         }
@@ -67,14 +67,6 @@ class BinaryTimeline final : public HostTimeline {
     }
 
   private:
-    [[nodiscard]] Result<GlSemaphore> importValue(SluiceDirection direction, std::uint64_t value) const {
-        Result<UniqueFd> fd = exportTimeline(deps_, direction, value);
-        if (!fd) {
-            return fd.error();
-        }
-        return GlSemaphore::import(std::move(fd).value(), nullptr);
-    }
-
     TimelineDeps deps_;
     std::uint64_t waited_ = 0;
 };

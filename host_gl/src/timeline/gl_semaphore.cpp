@@ -9,6 +9,7 @@
 
 #include "share/gl_errors.hpp"
 #include "share/renderer_error.hpp"
+#include "share/told_fd.hpp"
 #include "sluice/abi_sizes.hpp"
 #include "timeline/timeline_events.hpp"
 
@@ -35,6 +36,17 @@ Status refusalOf(const char* call) {
     return Error{SLUICE_ERROR_INTERNAL, call, fmt::format("OpenGL raised {}", raised), "request the bridged timeline"};
 }
 
+/// Asks the renderer for the descriptor of (direction, value).
+Result<UniqueFd> exportTimeline(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value) {
+    auto said = sized<SluiceError>();
+    std::int32_t fd = -1;
+    const SluiceResult result = deps.api->timeline_export(deps.renderer, direction, value, &fd, &said);
+    if (result != SLUICE_OK || fd < 0) {
+        return rendererError("timeline_export", result, said);
+    }
+    return UniqueFd(fd);
+}
+
 }  // namespace
 
 std::optional<NvTimelineFunctions> loadNvTimelineFunctions() {
@@ -57,7 +69,13 @@ GlSemaphore::~GlSemaphore() {
     }
 }
 
-Result<GlSemaphore> GlSemaphore::import(UniqueFd fd, const NvTimelineFunctions* timeline) {
+Result<GlSemaphore> GlSemaphore::import(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value,
+                                        const NvTimelineFunctions* timeline) {
+    Result<UniqueFd> exported = exportTimeline(deps, direction, value);
+    if (!exported) {
+        return exported.error();
+    }
+    ToldFd fd(std::move(exported).value(), deps.shares);
     const GlErrorScope errors;
     GlSemaphore semaphore;
     if (timeline != nullptr) {
@@ -72,7 +90,7 @@ Result<GlSemaphore> GlSemaphore::import(UniqueFd fd, const NvTimelineFunctions* 
         return Error{SLUICE_ERROR_IMPORT, "import of a semaphore", fmt::format("OpenGL raised {}", raised),
                      "request the bridged timeline"};
     }
-    static_cast<void>(fd.release());  // GL's from now on
+    fd.given();
     return semaphore;
 }
 
@@ -116,16 +134,6 @@ Status waitForRenderer(const GlSemaphore& semaphore, std::uint64_t value, std::u
                   "wait for renderer");
     }
     return status;
-}
-
-Result<UniqueFd> exportTimeline(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value) {
-    auto said = sized<SluiceError>();
-    std::int32_t fd = -1;
-    const SluiceResult result = deps.api->timeline_export(deps.renderer, direction, value, &fd, &said);
-    if (result != SLUICE_OK || fd < 0) {
-        return rendererError("timeline_export", result, said);
-    }
-    return UniqueFd(fd);
 }
 
 }  // namespace sluice::host

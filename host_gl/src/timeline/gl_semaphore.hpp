@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "sluice/fd.hpp"
 #include "sluice/result.hpp"
 #include "timeline/host_timeline.hpp"
 
@@ -36,8 +35,9 @@ class GlSemaphore {
     GlSemaphore& operator=(const GlSemaphore&) = delete;
     ~GlSemaphore();
 
-    /// A binary semaphore, or with `timeline` a timeline. Takes the descriptor; on failure it is closed.
-    [[nodiscard]] static Result<GlSemaphore> import(UniqueFd fd, const NvTimelineFunctions* timeline);
+    /// That of (direction, value): a binary semaphore, or with `timeline` a timeline.
+    [[nodiscard]] static Result<GlSemaphore> import(const TimelineDeps& deps, SluiceDirection direction,
+                                                    std::uint64_t value, const NvTimelineFunctions* timeline);
 
     // Each fails with the name of the call and what GL raised; the host's own error flags are left as found.
 
@@ -57,8 +57,5 @@ class GlSemaphore {
 /// The same for a wait for the renderer's value.
 [[nodiscard]] Status waitForRenderer(const GlSemaphore& semaphore, std::uint64_t value, std::uint64_t begin,
                                      std::span<const std::uint32_t> textures, Trace* trace);
-
-/// Asks the renderer for the descriptor of (direction, value).
-[[nodiscard]] Result<UniqueFd> exportTimeline(const TimelineDeps& deps, SluiceDirection direction, std::uint64_t value);
 
 }  // namespace sluice::host

@@ -7,7 +7,7 @@
 #include <memory>
 #include <string_view>
 
-#include "sluice/ledger/hand_off_feed.hpp"
+#include "sluice/ledger/share_feed.hpp"
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
 #include "sluice/timeline.hpp"
@@ -21,6 +21,7 @@ struct TimelineDeps {
     SluiceRenderer* renderer = nullptr;
     Trace* trace = nullptr;               ///< nullptr: tracing off
     ledger::HandOffFeed* feed = nullptr;  ///< nullptr: no ledger
+    ledger::ShareFeed* shares = nullptr;  ///< likewise
     std::function<void(SluiceLogLevel, std::string_view)> log;
     /// BRIDGED: how long destruction waits for fences that have not arrived before it lets the renderer go on without
     /// them.

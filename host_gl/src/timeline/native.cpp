@@ -50,15 +50,6 @@ class NativeTimeline final : public HostTimeline {
     GlSemaphore to_renderer_, to_host_;
 };
 
-Result<GlSemaphore> importDirection(const TimelineDeps& deps, SluiceDirection direction,
-                                    const NvTimelineFunctions& functions) {
-    Result<UniqueFd> fd = exportTimeline(deps, direction, 0);
-    if (!fd) {
-        return fd.error();
-    }
-    return GlSemaphore::import(std::move(fd).value(), &functions);
-}
-
 }  // namespace
 
 Result<std::unique_ptr<HostTimeline>> makeNativeTimeline(const TimelineDeps& deps) {
@@ -69,11 +60,11 @@ Result<std::unique_ptr<HostTimeline>> makeNativeTimeline(const TimelineDeps& dep
             functions ? "the GL driver has no GL_EXT_semaphore_fd" : "the GL driver has no GL_NV_timeline_semaphore",
             "request timeline 'auto' or 'bridged'"};
     }
-    Result<GlSemaphore> to_renderer = importDirection(deps, SLUICE_HOST_TO_RENDERER, *functions);
+    Result<GlSemaphore> to_renderer = GlSemaphore::import(deps, SLUICE_HOST_TO_RENDERER, 0, &*functions);
     if (!to_renderer) {
         return to_renderer.error();
     }
-    Result<GlSemaphore> to_host = importDirection(deps, SLUICE_RENDERER_TO_HOST, *functions);
+    Result<GlSemaphore> to_host = GlSemaphore::import(deps, SLUICE_RENDERER_TO_HOST, 0, &*functions);
     if (!to_host) {
         return to_host.error();
     }

@@ -6,6 +6,7 @@
 
 #include "sluice/abi_boundary.hpp"
 #include "sluice/abi_sizes.hpp"
+#include "sluice/export_mark.hpp"
 #include "sluice/fd.hpp"
 
 namespace sluice::isolate {
@@ -57,6 +58,7 @@ SluiceHostServices HostEnd::services(std::uint32_t wants_trace) {
 }
 
 Status HostEnd::ask(const Message& message, std::span<const int> fds) {
+    flushTrace();  // the events of what is asked come before it
     if (Status sent = channel_.send(message, call_, fds, kSendNs); !sent) {
         return sent;
     }
@@ -95,7 +97,7 @@ void HostEnd::trace(const SluiceTraceEvent* event) {
     point.begin_ns = event->begin_ns;
     point.duration_ns = event->duration_ns;
     point.frame = event->frame;
-    point.value = event->value;
+    point.value = valueElsewhere(*event);
     point.bytes = event->bytes;
     if (event->name != nullptr) {
         std::memcpy(point.name.data(), event->name, strnlen(event->name, point.name.size() - 1));

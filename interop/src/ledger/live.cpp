@@ -11,9 +11,12 @@ LiveLedger::LiveLedger(LedgerOptions options, std::unique_ptr<LogWriter> log)
 
 void LiveLedger::declareActor(ActorId id, ActorKind kind, std::string_view name) {
     const std::lock_guard lock(mutex_);
-    if (finished_) {
+    const auto known = living_.find(id);
+    const std::pair now(kind, std::string(name));
+    if (finished_ || (known != living_.end() && known->second == now)) {
         return;
     }
+    living_[id] = now;
     ledger_.declareActor(id, kind, name);
     if (log_) {
         log_->declareActor(id, kind, name);
@@ -48,8 +51,24 @@ void LiveLedger::record(const Event& event) {
     if (finished_) {
         return;
     }
+    if (event.kind == EventKind::ActorEnd) {
+        living_.erase(event.actor);
+    }
     ledger_.record(event);
     if (log_) {
+        log_->record(event);
+    }
+}
+
+void LiveLedger::recordMemory(const Event& event, const MemoryFacts& facts) {
+    const std::lock_guard lock(mutex_);
+    if (finished_) {
+        return;
+    }
+    ledger_.memoryFacts(event.object, facts);
+    ledger_.record(event);
+    if (log_) {
+        log_->memoryFacts(event.object, facts);
         log_->record(event);
     }
 }

@@ -8,6 +8,7 @@
 #include "device/capabilities.hpp"
 #include "device/one_shot.hpp"
 #include "device/structs.hpp"
+#include "sluice/export_mark.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::vk {
@@ -150,6 +151,7 @@ Status SharedImages::share(std::uint32_t set, SluiceImageRole role) {
     }
     SluiceError error{};
     error.struct_size = sizeof(error);
+    markExport(host_, image.value());
     const SluiceResult result = host_.share_image(host_.user, &image.value(), &error);
     if (result != SLUICE_OK) {
         return hostError(result, error, fmt::format("share_image of {}[{}]", toString(role), set));

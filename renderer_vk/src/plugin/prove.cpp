@@ -11,6 +11,7 @@
 #include "frame/shared_images.hpp"
 #include "memory/image.hpp"
 #include "sluice/canary.hpp"
+#include "sluice/export_mark.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::vk {
@@ -52,6 +53,7 @@ Status askHost(const SluiceHostServices& host, const Image& image, SluiceFormat 
     }
     SluiceError error{};
     error.struct_size = sizeof(error);
+    markExport(host, exported.value());
     const SluiceResult result = host.canary(host.user, &exported.value(), seed, &error);
     if (result != SLUICE_OK) {
         return hostError(result, error, "canary on the host");

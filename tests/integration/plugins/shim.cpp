@@ -94,6 +94,23 @@ SluiceResult shareLying(void* user, const SluiceImageExport* image, SluiceError*
         case ImageLie::NotShared:
             close(image->fd);
             return SLUICE_OK;
+        case ImageLie::NotDedicated:
+            changed.dedicated = 0;
+            break;
+        case ImageLie::Larger:
+            changed.allocation_size += 4096;
+            break;
+        case ImageLie::LostDescriptor: {
+            changed.fd = fcntl(image->fd, F_DUPFD_CLOEXEC, 0);
+            const SluiceResult result = share(user, &changed, error);
+            ShimControl& control = sluice_shim_control;
+            if (result == SLUICE_OK) {
+                control.lost.at(control.lost_count++) = image->fd;
+            } else {
+                close(changed.fd);
+            }
+            return result;
+        }
         case ImageLie::None:
             break;
     }
@@ -160,6 +177,12 @@ SluiceResult info(SluiceRenderer* renderer, SluiceRendererInfo* out) {
             std::memset(&out->capabilities.device_name[0], 'n', sizeof(out->capabilities.device_name));
             std::memset(&out->capabilities.driver_name[0], 'n', sizeof(out->capabilities.driver_name));
             std::memset(&out->capabilities.driver_info[0], 'n', sizeof(out->capabilities.driver_info));
+            break;
+        case InfoLie::Device:
+            out->capabilities.device_uuid[3] ^= 0xFFU;
+            break;
+        case InfoLie::Driver:
+            out->capabilities.driver_uuid[3] ^= 0xFFU;
             break;
         case InfoLie::None:
             break;

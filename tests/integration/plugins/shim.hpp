@@ -34,10 +34,14 @@ enum class ImageLie : std::uint8_t {
     TwiceAsWide,
     NoMemory,
     Tiny,
-    NotShared
+    NotShared,
+    // Of these OpenGL takes no notice.
+    NotDedicated,
+    Larger,
+    LostDescriptor  ///< the host gets a duplicate, and nobody closes the renderer's own
 };
 /// One thing that the renderer says of itself which is not so.
-enum class InfoLie : std::uint8_t { None, Timeline, Sets, Size, Format, Encoding, EndlessNames };
+enum class InfoLie : std::uint8_t { None, Timeline, Sets, Size, Format, Encoding, EndlessNames, Device, Driver };
 /// One thing about the statistics of a frame.
 enum class StatsLie : std::uint8_t { None, PassCount, EndlessNames };
 
@@ -70,6 +74,8 @@ struct ShimControl {
     std::uint32_t environment_width = 0;      ///< of the last set_environment
     std::uint32_t attempt_count = 0;          ///< calls of create
     std::array<std::uint32_t, 8> attempts{};  ///< SluiceTimelineKind of each
+    std::array<int, 32> lost{};               ///< of LostDescriptor, for the test to close
+    std::uint32_t lost_count = 0;
 };
 
 }  // namespace sluice::host::test

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "sluice/ledger/ledger.hpp"
@@ -31,11 +33,13 @@ class LiveLedger {
     /// Ends the log, if finish() has not.
     ~LiveLedger() = default;
 
-    // As those of Ledger.
+    // As those of Ledger. An actor that lives and is declared again as what it is stays the same actor.
     void declareActor(ActorId id, ActorKind kind, std::string_view name);
     void declareSync(ObjectId id, SyncKind kind, std::string_view name, std::uint64_t initial, std::uint16_t flags);
     void declareResource(ObjectId id, std::string_view name, std::uint32_t layout, ActorId owner);
     void record(const Event& event);
+    /// An Export or Import, with what it says of the memory.
+    void recordMemory(const Event& event, const MemoryFacts& facts);
     [[nodiscard]] std::vector<std::string> waitChain(ActorId actor) const;
 
     /// Whoever tells this ledger knows that it is not told everything. The first word stays.
@@ -54,10 +58,11 @@ class LiveLedger {
 
   private:
     mutable std::mutex mutex_;
-    Ledger ledger_;                       // guarded by mutex_
-    std::unique_ptr<LogWriter> log_;      // guarded by mutex_
-    bool finished_ = false;               // guarded by mutex_
-    std::optional<Unchecked> unchecked_;  // guarded by mutex_
+    Ledger ledger_;                                                // guarded by mutex_
+    std::unique_ptr<LogWriter> log_;                               // guarded by mutex_
+    bool finished_ = false;                                        // guarded by mutex_
+    std::map<ActorId, std::pair<ActorKind, std::string>> living_;  // guarded by mutex_
+    std::optional<Unchecked> unchecked_;                           // guarded by mutex_
 };
 
 }  // namespace sluice::ledger
