@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 // Moves each particle as its own lambda and its neighbours' ask (Macklin & Mueller 2013, eqs. 13 and 14), and out of the
 // solids. What i does to j, j does to i: without walls the sum of all moves is zero to round-off.
+#define BODIES_BINDING 6
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;
@@ -33,6 +34,10 @@ void main() {
         tensile *= tensile * p.kernel.w;
         delta += d.xyz * ((self.w + other.w - tensile) * p.kernel.y * near * near / d.w);
     }
-    delta += self.w * walls_of[i].xyz;
+    const vec4 walls = walls_of[i];
+    delta += self.w * walls.xyz;
+    if (BODIES == 1u && self.w < 0.0) {
+        addPressure(self.xyz, walls.w, self.w);
+    }
     sorted[i] = vec4(collided(self.xyz + delta), 0);
 }

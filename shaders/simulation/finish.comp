@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 // XSPH viscosity (Schechter & Bridson 2012), vorticity confinement, and the end of the step: the state that the next one
 // starts from, with what the host judges it by.
-#include "simulation.glsl"
+#define BODIES_BINDING 10
+#include "solids.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint CONFINE = 0u;
@@ -40,6 +41,17 @@ void main() {
         }
     }
     vec3 result = v + p.fluid.x * p.kernel.x * drift;
+    if (BODIES == 1u) {  // the fluid at rest that stands for the body moves with it
+        for (uint k = p.change.w; k < p.count.w; ++k) {
+            const float q = max(distanceTo(k, x).w, 0.0) / h;
+            if (q < 1.0) {
+                const uint body = k - p.change.w;
+                const vec3 drag = (bodyVelocity(body, x) - v) * (p.fluid.x * p.search.y * halfSpace(q));
+                addPush(body, x, drag * p.gravity.w);
+                result += drag;
+            }
+        }
+    }
     if (CONFINE == 1u) {
         const float steep = length(eta);
         const vec3 curl = texelFetch(curl_of, int(i)).xyz;

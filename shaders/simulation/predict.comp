@@ -5,6 +5,7 @@
 // Inputs: position, velocity. Outputs: predicted position, cell and arrival of each particle, particles of each cell.
 // The order of arrival is left to chance and forgotten in order.comp.
 #define SOURCES_BINDING 7
+#define BODIES_BINDING 8
 #include "solids.glsl"
 #include "sources.glsl"
 

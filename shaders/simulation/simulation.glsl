@@ -4,7 +4,7 @@
 #ifndef SLUICE_SIMULATION_GLSL
 #define SLUICE_SIMULATION_GLSL
 
-const uint MAX_SOLIDS = 64u;  // kMaxSolids
+const uint MAX_SOLIDS = 80u;  // kMaxSolids + kMaxBodies
 
 struct Solid {
     vec4 a;  // plane: unit normal; others: centre or first end; w = kind
@@ -20,9 +20,10 @@ layout(std140, set = 0, binding = 0) uniform Parameters {
     vec4 fluid;      // x = XSPH, y = vorticity confinement, z = 1 / poly6's bracket at the tensile distance, w = 1/dt
     vec4 search;     // x = 1 / side of a cell, which is a little wider than the support; y = factor of a wall's density
     uvec4 count;     // x = particles of the step, y = distance between two rows of the lists, z = most neighbours, w = solids
+                     // and bodies
     uvec4 grid;      // x = cells along x, y and z = masks along y and z, w = cells
     uvec4 change;    // x = particles before the sort, of which some may be gone; y = births after the step, z = the
-                     // identity of the first of them
+                     // identity of the first of them, w = solids that are no bodies
     Solid solid[MAX_SOLIDS];
 } p;
 

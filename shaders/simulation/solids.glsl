@@ -3,6 +3,9 @@
 #ifndef SLUICE_SOLIDS_GLSL
 #define SLUICE_SOLIDS_GLSL
 #include "simulation.glsl"
+#ifdef BODIES_BINDING
+#include "bodies.glsl"
+#endif
 
 vec3 rotated(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
 
@@ -41,7 +44,13 @@ vec4 distanceTo(uint k, vec3 x) {
 vec3 collided(vec3 x) {
     for (uint k = 0u; k < p.count.w; ++k) {
         const vec4 d = distanceTo(k, x);
-        x += d.xyz * max(p.low.w - d.w, 0.0);
+        const vec3 push = d.xyz * max(p.low.w - d.w, 0.0);
+#ifdef BODIES_BINDING
+        if (BODIES == 1u && k >= p.change.w && d.w < p.low.w) {
+            addPush(k - p.change.w, x, push);
+        }
+#endif
+        x += push;
     }
     return clamp(x, p.low.xyz + p.low.w, p.high.xyz - p.low.w);
 }
@@ -82,5 +91,19 @@ vec4 wallsAt(vec3 x) {
     }
     return walls;
 }
+#ifdef BODIES_BINDING
+// The part of the walls' gradient at x that is body k's, times `factor`, is what the body shifts a particle by. `density` is
+// that of all walls: each wall has what the others leave.
+void addPressure(vec3 x, float density, float factor) {
+    for (uint k = p.change.w; k < p.count.w; ++k) {
+        const vec4 d = distanceTo(k, x);
+        if (d.w < p.high.w) {
+            const float q = clamp(d.w / p.high.w, 0.0, 1.0);
+            const float left = (1.0 - density) / (1.0 - p.search.y * halfSpace(q));
+            addPush(k - p.change.w, x, d.xyz * (-halfSpaceSlope(q) * left * factor));
+        }
+    }
+}
+#endif
 
 #endif

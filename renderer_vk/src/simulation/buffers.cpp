@@ -68,6 +68,10 @@ SlotSize sizeOf(Slot slot, const SimulationBuffers& b) {
             return {"simulation births", VkDeviceSize{b.births} * 2 * kVector};
         case Slot::Blocked:
             return {"simulation births that are blocked", VkDeviceSize{b.births} * kWord};
+        case Slot::Bodies:
+            return {"simulation bodies", sizeof(BodyBlock)};
+        case Slot::Pushes:
+            return {"simulation pushes", kPushBytes};
         case Slot::Status:
         case Slot::Count:
             break;
@@ -86,7 +90,7 @@ Status createSlot(const Device& device, SimulationBuffers& buffers, Slot slot) {
                                  buffers.particles, limits.maxStorageBufferRange),
                      "simulate fewer particles"};
     }
-    const bool uniform = slot == Slot::Parameters || slot == Slot::Sources;
+    const bool uniform = slot == Slot::Parameters || slot == Slot::Sources || slot == Slot::Bodies;
     const bool written_by_host = uniform || slot == Slot::Births;
     VkBufferUsageFlags usage = uniform ? VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT
                                        : VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT |
@@ -156,8 +160,9 @@ Result<SimulationBuffers> createBuffers(const Device& device, std::uint32_t part
             return status.error();
         }
     }
-    Result<Buffer> read_back = Buffer::create(device, {sizeof(StepStatus), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
-                                                       BufferPlace::Readback, "simulation status for the host"});
+    Result<Buffer> read_back =
+        Buffer::create(device, {sizeof(StepStatus) + kPushBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                BufferPlace::Readback, "simulation status for the host"});
     if (!read_back) {
         return read_back.error();
     }

@@ -38,6 +38,8 @@ enum class Slot : std::uint8_t {
     Sources,
     Births,
     Blocked,
+    Bodies,
+    Pushes,
     Status,
     Count
 };
@@ -66,10 +68,12 @@ struct StepStatus {
     std::uint32_t faults, most_neighbours, speed_bits, move_bits, gone, stillborn;
 };
 
+inline constexpr VkDeviceSize kPushBytes = sizeof(BodyPush) * kMaxBodies;
+
 struct SimulationBuffers {
     std::array<Buffer, kSlots> slots;
     std::array<TexelView, kSlots> texels;  ///< of those that are read as texels
-    Buffer read_back;                      ///< StepStatus, for the host
+    Buffer read_back;                      ///< StepStatus and the pushes of bodies, for the host
     std::uint32_t particles = 0;           ///< capacity
     std::uint32_t neighbours = 0;          ///< rows of the lists
     std::uint32_t cells = 0;

@@ -46,13 +46,22 @@ struct KernelDesc {
 std::vector<KernelDesc> descriptions(const Features& features) {
     using enum Slot;
     const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}};
-    const std::vector<Use> finish{texels(Sorted), texels(Moving), texels(Curl),  texels(List), {ListCount},
-                                  {Before},       {PositionOut},  {VelocityOut}, {Status}};
+    const std::uint32_t bodies = features.bodies ? 1 : 0;
+    const std::vector<Use> finish{texels(Sorted), texels(Moving), texels(Curl), texels(List),    {ListCount}, {Before},
+                                  {PositionOut},  {VelocityOut},  {Status},     uniform(Bodies), {Pushes}};
     return {
         {Kernel::Predict,
          simulation_predict_comp,
-         {{PositionIn}, {VelocityIn}, {Predicted}, {Arrival}, {Cells}, {Status}, uniform(Sources)},
-         {features.fields ? 1U : 0U}},
+         {{PositionIn},
+          {VelocityIn},
+          {Predicted},
+          {Arrival},
+          {Cells},
+          {Status},
+          uniform(Sources),
+          uniform(Bodies),
+          {Pushes}},
+         {features.fields ? 1U : 0U, bodies}},
         {Kernel::ScanSums, simulation_scan_sums_comp, {{Cells}, {Sums}}},
         {Kernel::ScanBlocks, simulation_scan_blocks_comp, {{Sums}}},
         {Kernel::ScanCells, simulation_scan_cells_comp, {{Cells}, {Sums}}},
@@ -74,10 +83,13 @@ std::vector<KernelDesc> descriptions(const Features& features) {
          {texels(Sorted), texels(Cells), {List}, {ListCount}, {Status}}},
         {Kernel::Lambda, simulation_lambda_comp, lambda},
         {Kernel::Measure, simulation_lambda_comp, lambda, {1}},
-        {Kernel::Delta, simulation_delta_comp, {texels(Pushed), texels(List), {ListCount}, {Walls}, {Sorted}}},
+        {Kernel::Delta,
+         simulation_delta_comp,
+         {texels(Pushed), texels(List), {ListCount}, {Walls}, {Sorted}, uniform(Bodies), {Pushes}},
+         {0, bodies}},
         {Kernel::Velocity, simulation_velocity_comp, {{Sorted}, {Before}, {Moving}}},
         {Kernel::Curl, simulation_curl_comp, {texels(Sorted), texels(Moving), texels(List), {ListCount}, {Slot::Curl}}},
-        {Kernel::Finish, simulation_finish_comp, finish, {features.confined ? 1U : 0U}},
+        {Kernel::Finish, simulation_finish_comp, finish, {features.confined ? 1U : 0U, bodies}},
         {Kernel::Retire, simulation_retire_comp, {uniform(Sources), {Births}, {Blocked}, {PositionOut}, {Status}}},
         {Kernel::Born,
          simulation_born_comp,
@@ -133,7 +145,7 @@ Result<Kernels> Kernels::create(const Device& device, const Features& features) 
     made.device_ = &device;
     made.features_ = features;
     constexpr auto kSets = static_cast<std::uint32_t>(2 * kKernels);
-    constexpr std::array<VkDescriptorPoolSize, 3> kSizes{{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2 * kSets},
+    constexpr std::array<VkDescriptorPoolSize, 3> kSizes{{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 3 * kSets},
                                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 10 * kSets},
                                                           {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 4 * kSets}}};
     auto pool = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);

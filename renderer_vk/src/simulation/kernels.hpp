@@ -41,6 +41,7 @@ inline constexpr std::uint32_t kScanBlock = 512;
 struct Features {
     bool confined = false;  ///< vorticity confinement
     bool fields = false;    ///< force fields
+    bool bodies = false;    ///< bodies that are pushed
 };
 
 [[nodiscard]] const char* kernelName(Kernel kernel);

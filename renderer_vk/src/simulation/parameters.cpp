@@ -13,6 +13,10 @@ std::array<float, 4> with(const Triple& v, float w) {
     return {v[0], v[1], v[2], w};
 }
 
+SolidBlock blockOf(const Solid& solid) {
+    return {with(solid.a, static_cast<float>(solid.kind)), with(solid.b, solid.radius), solid.turn};
+}
+
 /// 315 / (64 pi h^9), of poly6 (Mueller 2003, eq. 20).
 double poly6Factor(double h) {
     return 315.0 / (64.0 * std::numbers::pi * std::pow(h, 9));
@@ -78,7 +82,7 @@ double wallFactor() {
 }
 
 Parameters parametersOf(const SimulationSettings& s, const Grid& grid, const StepCounts& counts, std::uint32_t stride,
-                        std::uint32_t most, float dt) {
+                        std::uint32_t most, float dt, std::span<const BodyState> bodies) {
     const auto h = double{s.support()};
     const double volume = particleVolume(double{s.radius});
     // Distance at which the artificial pressure is k: 0.2 h (Macklin & Mueller 2013 give 0.1 to 0.3).
@@ -92,14 +96,38 @@ Parameters parametersOf(const SimulationSettings& s, const Grid& grid, const Ste
                 static_cast<float>(double{s.relaxation} / (h * h)), static_cast<float>(double{s.tensile} * h * h)};
     p.fluid = {s.viscosity, s.vorticity, static_cast<float>(1.0 / tensile), 1.0F / dt};
     p.search = {static_cast<float>(1.0 / grid.side), static_cast<float>(wallFactor()), 0, 0};
-    p.count = {counts.living, stride, most, static_cast<std::uint32_t>(s.solids.size())};
-    p.change = {counts.entries, counts.births, counts.next_identity, 0};
+    p.count = {counts.living, stride, most, static_cast<std::uint32_t>(s.solids.size() + bodies.size())};
+    p.change = {counts.entries, counts.births, counts.next_identity, static_cast<std::uint32_t>(s.solids.size())};
     p.grid = {grid.x, grid.y - 1, grid.z - 1, grid.cells()};
     for (std::size_t i = 0; i < s.solids.size(); ++i) {
-        const Solid& solid = s.solids[i];
-        p.solids.at(i) = {with(solid.a, static_cast<float>(solid.kind)), with(solid.b, solid.radius), solid.turn};
+        p.solids.at(i) = blockOf(s.solids[i]);
+    }
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        p.solids.at(s.solids.size() + i) = blockOf(solidOf(s.bodies[i], bodies[i]));
     }
     return p;
+}
+
+BodyBlock bodyBlock(std::span<const Body> bodies, std::span<const BodyState> states) {
+    BodyBlock block{};
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        block.body.at(i) = {with(narrow(states[i].centre), static_cast<float>(1.0 / bodyReach(bodies[i]))),
+                            with(narrow(states[i].velocity), 0.0F), with(narrow(states[i].spin), 0.0F)};
+    }
+    return block;
+}
+
+BodyImpulse impulseOf(const BodyPush& push, const SimulationSettings& settings, const Body& body, double seconds) {
+    Vector shift{};
+    Vector moment{};
+    for (std::size_t i = 0; i < 6; ++i) {
+        const auto low = static_cast<double>(push.sums.at(i)[0]);
+        const auto high = static_cast<double>(static_cast<std::int32_t>(push.sums.at(i)[1]));
+        (i < 3 ? shift : moment).at(i % 3) = (high * 0x1p12 + low) * 0x1p-22 * double{settings.support()};
+    }
+    // A particle is what a cube of the lattice at rest holds. What pushed it one way was pushed the other.
+    const double mass = -std::pow(2.0 * double{settings.radius}, 3) / seconds;
+    return {times(mass, shift), times(mass * bodyReach(body), moment)};
 }
 
 }  // namespace sluice::vk

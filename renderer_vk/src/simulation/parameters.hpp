@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "simulation/settings.hpp"
 
@@ -15,9 +16,9 @@ struct SolidBlock {
 struct Parameters {
     std::array<float, 4> gravity, low, high, kernel, fluid, search;
     std::array<std::uint32_t, 4> count, grid, change;
-    std::array<SolidBlock, kMaxSolids> solids;
+    std::array<SolidBlock, kMaxSolids + kMaxBodies> solids;  ///< bodies behind those that stand still
 };
-static_assert(sizeof(Parameters) == 144 + 48 * kMaxSolids, "std140");
+static_assert(sizeof(Parameters) == 144 + 48 * (kMaxSolids + kMaxBodies), "std140");
 
 /// The cells of the neighbour search. x is one row of cells with an empty one at each end; y and z are powers of two
 /// and wrap around when the domain has more.
@@ -45,8 +46,28 @@ struct StepCounts {
     std::uint32_t next_identity = 0;
 };
 
+/// Bodies as the passes see them; mirrors shaders/simulation/bodies.glsl.
+struct BodyBlock {
+    struct One {
+        std::array<float, 4> centre, velocity, spin;
+    };
+    std::array<One, kMaxBodies> body;
+};
+/// What the fluid gives a body: shift times arm, in parts of the support that the passes count in whole numbers.
+struct BodyPush {
+    std::array<std::array<std::uint32_t, 2>, 6> sums;  ///< low and high parts of x, y, z and of the moment's
+};
+/// Linear and angular momentum, m^3 m/s and m^3 m^2/s, that the body got in a step of that length.
+struct BodyImpulse {
+    Vector linear{}, angular{};
+};
+[[nodiscard]] BodyImpulse impulseOf(const BodyPush& push, const SimulationSettings& settings, const Body& body,
+                                    double seconds);
+[[nodiscard]] BodyBlock bodyBlock(std::span<const Body> bodies, std::span<const BodyState> states);
+
 /// `stride` is the distance between rows of the neighbour lists, `most` the rows.
 [[nodiscard]] Parameters parametersOf(const SimulationSettings& settings, const Grid& grid, const StepCounts& counts,
-                                      std::uint32_t stride, std::uint32_t most, float dt);
+                                      std::uint32_t stride, std::uint32_t most, float dt,
+                                      std::span<const BodyState> bodies = {});
 
 }  // namespace sluice::vk

@@ -137,6 +137,9 @@ Status checkSettings(const SimulationSettings& s) {
         return wrong("simulation: solids", fmt::format("at most {} that reach into the domain", kMaxSolids),
                      fmt::format("{}", within));
     }
+    if (Status status = checkBodies(s.bodies, s.low, s.high); !status) {
+        return status;
+    }
     return checkSources(s.sources, s.radius, s.low, s.high, s.solids);
 }
 
@@ -159,6 +162,11 @@ Status checkParticles(const SimulationSettings& settings, std::span<const float>
                 return wrong(
                     thing, fmt::format("a position in the domain, {} to {}", shown(settings.low), shown(settings.high)),
                     shown(x));
+            }
+        }
+        for (std::size_t body = 0; body < settings.bodies.size(); ++body) {
+            if (contactWith(solidOf(settings.bodies[body], startOf(settings.bodies[body])), wide(x)).distance < 0.0) {
+                return wrong(thing, fmt::format("a position outside body {}", body), shown(x));
             }
         }
         for (std::size_t solid = 0; solid < settings.solids.size(); ++solid) {

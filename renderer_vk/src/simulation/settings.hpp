@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "simulation/bodies.hpp"
 #include "simulation/solid.hpp"
 #include "simulation/sources.hpp"
 #include "sluice/result.hpp"
@@ -27,6 +28,7 @@ struct SimulationSettings {
     float cfl = 0.4F;                      ///< supports that a particle may fly in one step
     std::vector<Solid> solids;
     SourceSettings sources;
+    std::vector<Body> bodies;
 
     [[nodiscard]] float support() const { return 4.0F * radius; }
 };

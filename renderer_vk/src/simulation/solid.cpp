@@ -6,21 +6,32 @@
 #include <cstddef>
 #include <numbers>
 
-#include "simulation/vector.hpp"
-
 namespace sluice::vk {
 namespace {
 
-double distanceToBox(const Solid& solid, const Triple& x) {
-    const Vector local = turnedBack(solid.turn, minus(wide(x), wide(solid.a)));
+SolidContact contactWithBox(const Solid& solid, const Vector& x) {
+    const Vector local = turnedBack(solid.turn, minus(x, wide(solid.a)));
     Vector out{};
-    double inner = -1e300;
+    std::size_t face = 0;  // the nearest; of equal ones the first
     for (std::size_t i = 0; i < 3; ++i) {
         out[i] = std::abs(local[i]) - double{solid.b[i]};
-        inner = std::max(inner, out[i]);
-        out[i] = std::max(out[i], 0.0);
+        face = out[i] > out[face] ? i : face;
     }
-    return inner > 0.0 ? length(out) : inner;
+    Vector normal{};
+    double distance = out[face];
+    if (distance > 0.0) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            normal[i] = std::max(out[i], 0.0);
+        }
+        distance = length(normal);
+        normal = times(1.0 / distance, normal);
+    } else {
+        normal[face] = 1.0;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        normal[i] = std::copysign(normal[i], local[i]);
+    }
+    return {turned(solid.turn, normal), distance};
 }
 
 }  // namespace
@@ -53,21 +64,24 @@ Solid boxSolid(const Triple& centre, const Triple& half, float degrees_about_y) 
             {0, static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))}};
 }
 
-double distanceTo(const Solid& solid, const Triple& x) {
+SolidContact contactWith(const Solid& solid, const Vector& x) {
     if (solid.kind == SolidKind::Plane) {
-        return dot(wide(solid.a), wide(x)) - double{solid.radius};
+        return {wide(solid.a), dot(wide(solid.a), x) - double{solid.radius}};
     }
     if (solid.kind == SolidKind::Box) {
-        return distanceToBox(solid, x);
+        return contactWithBox(solid, x);
     }
     const Vector axis = solid.kind == SolidKind::Capsule ? minus(wide(solid.b), wide(solid.a)) : Vector{};
-    Vector away = minus(wide(x), wide(solid.a));
+    const Vector from = minus(x, wide(solid.a));
     const double square = dot(axis, axis);
-    const double along = square > 0.0 ? std::clamp(dot(away, axis) / square, 0.0, 1.0) : 0.0;
-    for (std::size_t i = 0; i < 3; ++i) {
-        away[i] -= along * axis[i];
-    }
-    return length(away) - double{solid.radius};
+    const double along = square > 0.0 ? std::clamp(dot(from, axis) / square, 0.0, 1.0) : 0.0;
+    const Vector away = minus(from, times(along, axis));
+    const double distance = length(away);
+    return {distance > 1e-20 ? times(1.0 / distance, away) : Vector{0, 1, 0}, distance - double{solid.radius}};
+}
+
+double distanceTo(const Solid& solid, const Triple& x) {
+    return contactWith(solid, wide(x)).distance;
 }
 
 }  // namespace sluice::vk

@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include "simulation/vector.hpp"
+
 namespace sluice::vk {
 
 using Triple = std::array<float, 3>;
@@ -25,6 +27,13 @@ struct Solid {
 [[nodiscard]] Solid capsuleSolid(const Triple& a, const Triple& b, float radius);
 /// Turned about +y by `degrees`, as host::Crate is.
 [[nodiscard]] Solid boxSolid(const Triple& centre, const Triple& half, float degrees_about_y = 0.0F);
+
+/// The nearest place of a solid's surface as x sees it.
+struct SolidContact {
+    Vector normal{};        ///< unit, out of the solid
+    double distance = 0.0;  ///< m; negative inside
+};
+[[nodiscard]] SolidContact contactWith(const Solid& solid, const Vector& x);
 
 /// Distance from x to the solid's surface, metres; negative inside.
 [[nodiscard]] double distanceTo(const Solid& solid, const Triple& x);

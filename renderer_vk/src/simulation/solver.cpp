@@ -31,6 +31,15 @@ double fastest(std::span<const float> velocities) {
     return most;
 }
 
+std::vector<Solid> wallsOf(const SimulationSettings& s) {
+    std::vector<Solid> walls{planeSolid({1, 0, 0}, s.low),   planeSolid({0, 1, 0}, s.low),
+                             planeSolid({0, 0, 1}, s.low),   planeSolid({-1, 0, 0}, s.high),
+                             planeSolid({0, -1, 0}, s.high), planeSolid({0, 0, -1}, s.high)};
+    const std::vector<Solid> solids = solidsWithin(s);
+    walls.insert(walls.end(), solids.begin(), solids.end());
+    return walls;
+}
+
 }  // namespace
 
 Solver::Solver(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -43,7 +52,10 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
     auto state = std::make_unique<State>(device, settings);
     state->settings.solids = solidsWithin(settings);
     state->sources = sourceBlock(settings.sources);
-    Result<Kernels> kernels = Kernels::create(device, {settings.vorticity > 0.0F, !settings.sources.fields.empty()});
+    state->walls = wallsOf(settings);
+    state->restartBodies();
+    Result<Kernels> kernels = Kernels::create(
+        device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty()});
     if (!kernels) {
         return kernels.error();
     }
@@ -64,7 +76,8 @@ Status Solver::setParticles(std::span<const float> positions, std::span<const fl
     s.measurable = false;
     s.counts = {count, count, 0, count};
     s.time = 0.0;
-    s.speed = fastest(velocities);
+    s.restartBodies();
+    s.speed = std::max(fastest(velocities), fastestPoint(s.settings.bodies, s.bodies));
     for (const Emitter& emitter : s.settings.sources.emitters) {
         s.speed = std::max(s.speed, double{emitter.speed});
     }
@@ -144,6 +157,10 @@ std::uint32_t Solver::count() const {
 
 double Solver::time() const {
     return state_->time;
+}
+
+std::span<const BodyState> Solver::bodies() const {
+    return state_->bodies;
 }
 
 Result<ParticleState> Solver::read() const {

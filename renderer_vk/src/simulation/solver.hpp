@@ -70,6 +70,8 @@ class Solver {
     [[nodiscard]] double time() const;
     /// Those that live, in the order in which they were given; then the others in the order of their birth.
     [[nodiscard]] Result<ParticleState> read() const;
+    /// Bodies in the order of the settings, after the last step: pose, motion, and what the fluid did to them in it.
+    [[nodiscard]] std::span<const BodyState> bodies() const;
     /// Density of each particle that the last step moved, in densities of rest; walls count as fluid at rest. Who was
     /// born at its end has none yet, and who was drained had one.
     [[nodiscard]] Result<std::vector<float>> densities() const;

@@ -38,6 +38,9 @@ void Solver::State::record(VkCommandBuffer commands) {
     if (changing()) {
         device.fn.vkCmdFillBuffer(commands, buffers[Slot::Blocked].buffer(), 0, VK_WHOLE_SIZE, 0);
     }
+    if (!bodies.empty()) {
+        device.fn.vkCmdFillBuffer(commands, buffers[Slot::Pushes].buffer(), 0, VK_WHOLE_SIZE, 0);
+    }
     memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                   VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
@@ -66,13 +69,20 @@ void Solver::State::record(VkCommandBuffer commands) {
                   VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
     const VkBufferCopy whole{0, 0, sizeof(StepStatus)};
     device.fn.vkCmdCopyBuffer(commands, buffers[Slot::Status].buffer(), buffers.read_back.buffer(), 1, &whole);
+    if (!bodies.empty()) {
+        const VkBufferCopy pushes{0, sizeof(StepStatus), kPushBytes};
+        device.fn.vkCmdCopyBuffer(commands, buffers[Slot::Pushes].buffer(), buffers.read_back.buffer(), 1, &pushes);
+    }
     memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
 }
 
 Result<StepStatus> Solver::State::tryStep(float dt) {
-    const Parameters parameters = parametersOf(settings, grid, counts, buffers.stride(), buffers.neighbours, dt);
+    const Parameters parameters =
+        parametersOf(settings, grid, counts, buffers.stride(), buffers.neighbours, dt, moving);
     std::memcpy(buffers[Slot::Parameters].mapped().data(), &parameters, sizeof parameters);
+    const BodyBlock block = bodyBlock(settings.bodies, moving);
+    std::memcpy(buffers[Slot::Bodies].mapped().data(), &block, sizeof block);
     std::memcpy(buffers[Slot::Sources].mapped().data(), &sources, sizeof sources);
     // The host decides after every step whether it counts, so there is never more than one under way.
     if (const Status status = runOnce(device, [this](VkCommandBuffer commands) { record(commands); }); !status) {
@@ -89,6 +99,7 @@ Result<StepReport> Solver::State::attempt(double seconds) {
     if (const Status ready = prepareBirths(seconds); !ready) {
         return ready.error();
     }
+    moving = movedBodies(settings.bodies, bodies, walls, settings.gravity, time, seconds);
     for (;;) {
         const Result<StepStatus> tried = tryStep(static_cast<float>(seconds));
         if (!tried) {
@@ -129,7 +140,14 @@ Result<StepReport> Solver::State::attempt(double seconds) {
 void Solver::State::keep(const StepReport& report) {
     odd = !odd;
     measurable = true;
-    speed = report.speed;
+    for (std::size_t i = 0; i < moving.size(); ++i) {
+        BodyPush push{};
+        std::memcpy(&push, buffers.read_back.mapped().data() + sizeof(StepStatus) + i * sizeof push, sizeof push);
+        const BodyImpulse impulse = impulseOf(push, settings, settings.bodies[i], report.seconds);
+        pushBody(settings.bodies[i], moving[i], impulse.linear, impulse.angular, report.seconds);
+    }
+    bodies = moving;
+    speed = std::max(report.speed, fastestPoint(settings.bodies, bodies));
     time += report.seconds;
     moved = counts.living;
     counts.entries = counts.living + counts.births;

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT
 # Included by renderer_vk/CMakeLists.txt: the fluid solver.
 list(APPEND SLUICE_VK_SOURCES
+    src/simulation/bodies.cpp
+    src/simulation/body_contacts.cpp
     src/simulation/buffers.cpp
     src/simulation/kernels.cpp
     src/simulation/check_sources.cpp

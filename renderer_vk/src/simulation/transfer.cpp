@@ -12,10 +12,10 @@
 namespace sluice::vk {
 namespace {
 
-using Vector = std::array<float, 4>;
+using Texel = std::array<float, 4>;
 
-std::vector<Vector> padded(std::span<const float> triples, std::size_t count) {
-    std::vector<Vector> vectors(count, Vector{});
+std::vector<Texel> padded(std::span<const float> triples, std::size_t count) {
+    std::vector<Texel> vectors(count, Texel{});
     for (std::size_t i = 0; i < triples.size() / 3; ++i) {
         vectors[i] = {triples[3 * i], triples[3 * i + 1], triples[3 * i + 2], 0.0F};
     }
@@ -67,7 +67,7 @@ Result<std::vector<T>> download(const Device& device, const Buffer& from, std::s
 }
 
 /// The three numbers of each vector, put where its identity says.
-std::vector<float> byIdentity(const std::vector<Vector>& vectors, const std::vector<std::uint32_t>& identity) {
+std::vector<float> byIdentity(const std::vector<Texel>& vectors, const std::vector<std::uint32_t>& identity) {
     std::vector<float> triples(3 * vectors.size());
     for (std::size_t i = 0; i < vectors.size(); ++i) {
         std::copy_n(vectors[i].begin(), 3, triples.begin() + 3 * static_cast<std::ptrdiff_t>(identity[i]));
@@ -110,8 +110,8 @@ Status copyParticles(const Device& device, const SimulationBuffers& from, const 
     return runOnce(device, [&](VkCommandBuffer commands) {
         memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
-        for (const auto& [slot, bytes] : {std::pair{odd ? Slot::PositionOut : Slot::PositionIn, sizeof(Vector)},
-                                          {odd ? Slot::VelocityOut : Slot::VelocityIn, sizeof(Vector)},
+        for (const auto& [slot, bytes] : {std::pair{odd ? Slot::PositionOut : Slot::PositionIn, sizeof(Texel)},
+                                          {odd ? Slot::VelocityOut : Slot::VelocityIn, sizeof(Texel)},
                                           {odd ? Slot::IdentityOut : Slot::IdentityIn, sizeof(std::uint32_t)}}) {
             const VkBufferCopy all{0, 0, count * bytes};
             device.fn.vkCmdCopyBuffer(commands, from[slot].buffer(), to[slot].buffer(), 1, &all);
@@ -127,11 +127,11 @@ Result<ParticleState> downloadParticles(const Device& device, const SimulationBu
     if (!identity) {
         return identity.error();
     }
-    const auto position = download<Vector>(device, buffers[odd ? Slot::PositionOut : Slot::PositionIn], count);
+    const auto position = download<Texel>(device, buffers[odd ? Slot::PositionOut : Slot::PositionIn], count);
     if (!position) {
         return position.error();
     }
-    const auto velocity = download<Vector>(device, buffers[odd ? Slot::VelocityOut : Slot::VelocityIn], count);
+    const auto velocity = download<Texel>(device, buffers[odd ? Slot::VelocityOut : Slot::VelocityIn], count);
     if (!velocity) {
         return velocity.error();
     }
@@ -146,8 +146,8 @@ Result<ParticleState> downloadParticles(const Device& device, const SimulationBu
               [&](std::uint32_t a, std::uint32_t b) { return identity.value()[a] < identity.value()[b]; });
     ParticleState state;
     for (const std::uint32_t i : living) {
-        const Vector& x = position.value()[i];
-        const Vector& v = velocity.value()[i];
+        const Texel& x = position.value()[i];
+        const Texel& v = velocity.value()[i];
         state.position.insert(state.position.end(), x.begin(), x.begin() + 3);
         state.velocity.insert(state.velocity.end(), v.begin(), v.begin() + 3);
     }
@@ -160,7 +160,7 @@ Result<std::vector<float>> downloadDensities(const Device& device, const Simulat
     if (!identity) {
         return identity.error();
     }
-    const auto measured = download<Vector>(device, buffers[Slot::Pushed], count);
+    const auto measured = download<Texel>(device, buffers[Slot::Pushed], count);
     if (!measured) {
         return measured.error();
     }
@@ -194,7 +194,7 @@ Result<NeighbourLists> downloadLists(const Device& device, const SimulationBuffe
     if (!before) {
         return before.error();
     }
-    const auto predicted = download<Vector>(device, buffers[Slot::Predicted], count);
+    const auto predicted = download<Texel>(device, buffers[Slot::Predicted], count);
     if (!predicted) {
         return predicted.error();
     }

@@ -85,7 +85,7 @@ Vec rotate(const std::array<float, 4>& q, const Vec& v, double sign) {
     return 2.0 * dot(u, v) * u + (w * w - dot(u, u)) * v + 2.0 * w * cross(u, v);
 }
 
-Contact contactWith(const Solid& solid, const Vec& x) {
+Contact touching(const Solid& solid, const Vec& x) {
     const Vec a = wide(solid.a);
     const Vec b = wide(solid.b);
     if (solid.kind == SolidKind::Plane) {
@@ -114,8 +114,15 @@ Contact contactWith(const Solid& solid, const Vec& x) {
     return {1.0 / norm(x - centre) * (x - centre), norm(x - centre) - double{solid.radius}};
 }
 
-/// The six faces of the domain, then the solids.
-std::vector<Contact> contacts(const SimulationSettings& s, const Vec& x) {
+using Bodies = std::vector<ReferenceBody>;
+
+void push(ReferenceBody& body, const Vec& x, const Vec& by) {
+    body.shift = body.shift + by;
+    body.moment = body.moment + cross(x - body.centre, by);
+}
+
+/// The six faces of the domain, then the solids, then the bodies.
+std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& bodies, const Vec& x) {
     std::vector<Contact> all;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         Vec normal{};
@@ -124,16 +131,25 @@ std::vector<Contact> contacts(const SimulationSettings& s, const Vec& x) {
         all.push_back({-1.0 * normal, double{s.high[axis]} - x[axis]});
     }
     for (const Solid& solid : s.solids) {
-        all.push_back(contactWith(solid, x));
+        all.push_back(touching(solid, x));
+    }
+    for (const ReferenceBody& body : bodies) {
+        all.push_back(touching(body.solid, x));
     }
     return all;
 }
 
-Vec pushedOut(const SimulationSettings& s, Vec x) {
+Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x) {
     const double r = double{s.radius};
     for (const Solid& solid : s.solids) {
-        const Contact contact = contactWith(solid, x);
+        const Contact contact = touching(solid, x);
         x = x + std::max(r - contact.distance, 0.0) * contact.normal;
+    }
+    for (ReferenceBody& body : bodies) {
+        const Contact contact = touching(body.solid, x);
+        const Vec by = std::max(r - contact.distance, 0.0) * contact.normal;
+        push(body, x, by);
+        x = x + by;
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         x[axis] = std::clamp(x[axis], double{s.low[axis]} + r, double{s.high[axis]} - r);
@@ -163,19 +179,24 @@ Vec fieldsAt(const SimulationSettings& s, const Vec& x) {
 struct Walls {
     Vec gradient{};
     double density = 0.0;
+    std::vector<Vec> parts;  ///< of the gradient, of each wall
 };
 
 /// Integrals of the kernels over what lies behind each wall, by quadrature.
-Walls wallsAt(const SimulationSettings& s, const Kernels& kernels, const Vec& x) {
+Walls wallsAt(const SimulationSettings& s, const Bodies& bodies, const Kernels& kernels, const Vec& x) {
     const double h = kernels.h;
     Walls walls;
-    for (const Contact& contact : contacts(s, x)) {
+    for (const Contact& contact : contacts(s, bodies, x)) {
         const double d = std::clamp(contact.distance, 0.0, h);
         const double share = kernels.wall * kernels.halfSpace(d);
         // The gradient of a half-space is spiky, 15 / (pi h^6) (h - r)^3, over the plane that bounds it.
         const double slope = 15.0 / (kPi * std::pow(h, 6)) *
                              integral(d, h, [h](double r) { return 2.0 * kPi * r * std::pow(h - r, 3); });
         walls.gradient = (1.0 - share) * walls.gradient - slope * (1.0 - walls.density) * contact.normal;
+        for (Vec& part : walls.parts) {
+            part = (1.0 - share) * part;
+        }
+        walls.parts.push_back(-slope * (1.0 - walls.density) * contact.normal);
         walls.density += share * (1.0 - walls.density);
     }
     return walls;
@@ -204,12 +225,13 @@ double densityAt(const std::vector<Vec>& x, const std::vector<std::size_t>& list
     return density;
 }
 
-void iterate(const SimulationSettings& s, const Kernels& kernels, const Lists& lists, std::vector<Vec>& x) {
+void iterate(const SimulationSettings& s, Bodies& bodies, const Kernels& kernels, const Lists& lists,
+             std::vector<Vec>& x) {
     const double h = kernels.h;
     std::vector<double> lambda(x.size());
     std::vector<Walls> walls(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
-        walls[i] = wallsAt(s, kernels, x[i]);
+        walls[i] = wallsAt(s, bodies, kernels, x[i]);
         Vec own = walls[i].gradient;
         double squares = 0.0;
         for (const std::size_t j : lists[i]) {
@@ -229,7 +251,10 @@ void iterate(const SimulationSettings& s, const Kernels& kernels, const Lists& l
             const double artificial = -double{s.tensile} * h * h * std::pow(ratio, 4);
             delta = delta + (lambda[i] + lambda[j] + artificial) * kernels.volume * kernels.gradient(d);
         }
-        moved[i] = pushedOut(s, x[i] + delta);
+        for (std::size_t k = 0; k < bodies.size(); ++k) {
+            push(bodies[k], x[i], lambda[i] * walls[i].parts[walls[i].parts.size() - bodies.size() + k]);
+        }
+        moved[i] = pushedOut(s, bodies, x[i] + delta);
     }
     x = moved;
 }
@@ -237,16 +262,22 @@ void iterate(const SimulationSettings& s, const Kernels& kernels, const Lists& l
 }  // namespace
 
 ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& before, double dt) {
+    Bodies none;
+    return referenceStep(s, before, dt, none);
+}
+
+ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& before, double dt,
+                             std::vector<ReferenceBody>& bodies) {
     const Kernels kernels(double{s.radius});
     const std::size_t n = before.position.size();
     std::vector<Vec> x(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Vec pull = wide(s.gravity) + fieldsAt(s, before.position[i]);
-        x[i] = pushedOut(s, before.position[i] + dt * (before.velocity[i] + dt * pull));
+        x[i] = pushedOut(s, bodies, before.position[i] + dt * (before.velocity[i] + dt * pull));
     }
     const Lists lists = allPairs(x, kernels.h);
     for (std::uint32_t k = 0; k < s.iterations; ++k) {
-        iterate(s, kernels, lists, x);
+        iterate(s, bodies, kernels, lists, x);
     }
     std::vector<Vec> v(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -267,10 +298,19 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
             eta = eta + kernels.volume * norm(curl[j]) * kernels.gradient(x[i] - x[j]);
         }
         after.velocity[i] = v[i] + double{s.viscosity} * drift;
+        for (ReferenceBody& body : bodies) {
+            const double distance = std::max(touching(body.solid, x[i]).distance, 0.0);
+            if (distance < kernels.h) {
+                const Vec there = body.velocity + cross(body.spin, x[i] - body.centre);
+                const Vec drag = double{s.viscosity} * kernels.wall * kernels.halfSpace(distance) * (there - v[i]);
+                after.velocity[i] = after.velocity[i] + drag;
+                push(body, x[i], dt * drag);
+            }
+        }
         if (s.vorticity > 0.0F && norm(eta) > 1e-6) {
             after.velocity[i] = after.velocity[i] + dt * double{s.vorticity} / norm(eta) * cross(eta, curl[i]);
         }
-        after.density[i] = densityAt(x, lists[i], kernels, wallsAt(s, kernels, x[i]), i);
+        after.density[i] = densityAt(x, lists[i], kernels, wallsAt(s, bodies, kernels, x[i]), i);
     }
     return after;
 }

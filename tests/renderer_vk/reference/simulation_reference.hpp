@@ -17,6 +17,15 @@ struct ReferenceState {
     std::vector<double> density;  ///< after the step
 };
 
+/// A body where it is at the end of the step, and the sums of what it moves particles by.
+struct ReferenceBody {
+    Solid solid;
+    Vec centre{}, velocity{}, spin{};
+    Vec shift{}, moment{};  ///< m, and about the centre, m^2
+};
+
+[[nodiscard]] ReferenceState referenceStep(const SimulationSettings& settings, const ReferenceState& before, double dt,
+                                           std::vector<ReferenceBody>& bodies);
 [[nodiscard]] ReferenceState referenceStep(const SimulationSettings& settings, const ReferenceState& before, double dt);
 
 }  // namespace sluice::vk::test
