@@ -90,8 +90,8 @@ TEST(Layers, PremultiplyFluidAndLeaveOutWhatIsNotThere) {
     EXPECT_EQ(image.channels[7].values[0], 0.25F);
 }
 
-std::filesystem::path writeMap(const std::string& name, OIIO::TypeDesc type, const std::vector<float>& pixels) {
-    const auto path = temporary(name);
+std::filesystem::path writeMap(const std::string& name, const OIIO::TypeDesc& type, const std::vector<float>& pixels) {
+    auto path = temporary(name);
     const auto output = OIIO::ImageOutput::create(path.string());
     const OIIO::ImageSpec spec(2, 1, 3, type);
     EXPECT_TRUE(output && output->open(path.string(), spec) &&

@@ -70,9 +70,11 @@ void ProgramTest::writeParticles(const std::string& name, unsigned n) const {
     append(static_cast<std::uint32_t>(n * n * n));
     append(spacing / 2.0F);
     for (unsigned i = 0; i < n * n * n; ++i) {
+        const unsigned row = i / n;
+        const unsigned layer = row / n;
         append((static_cast<float>(i % n) + 0.5F) * spacing - 0.5F);
-        append((static_cast<float>(i / n % n) + 0.5F) * spacing);
-        append((static_cast<float>(i / n / n) + 0.5F) * spacing - 0.5F);
+        append((static_cast<float>(row % n) + 0.5F) * spacing);
+        append((static_cast<float>(layer) + 0.5F) * spacing - 0.5F);
     }
     write(name, bytes);
 }

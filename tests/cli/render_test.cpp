@@ -22,7 +22,8 @@ struct Image {
     std::vector<float> values;
     [[nodiscard]] float at(int x, int y, const std::string& channel) const {
         const int c = spec.channelindex(channel);
-        return values[static_cast<std::size_t>((y * spec.width + x) * spec.nchannels + c)];
+        const std::ptrdiff_t pixel = std::ptrdiff_t{y} * spec.width + x;
+        return values[static_cast<std::size_t>(pixel * spec.nchannels + c)];
     }
 };
 
@@ -214,7 +215,7 @@ TEST_F(Render, RangesByTwoProcessesAtOnceAreTheFramesOfOneRun) {
 TEST_F(Render, EnvironmentMapsChangeTheReflection) {
     ASSERT_EQ(run("render s.json -o sky.png").code, 0);
     OIIO::ImageSpec spec(64, 32, 3, OIIO::TypeDesc::FLOAT);
-    const std::vector<float> red(64 * 32 * 3, 0.0F);
+    const std::vector<float> red(std::size_t{64} * 32 * 3, 0.0F);
     std::vector<float> pixels = red;
     for (std::size_t i = 0; i < pixels.size(); i += 3) {
         pixels[i] = 4.0F;

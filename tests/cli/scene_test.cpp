@@ -146,7 +146,7 @@ TEST(SceneCamera, MapsTheTargetToTheMiddleAndPlanesToTheirDepths) {
     Scene scene;
     const SluiceCamera camera = cameraAt(scene, 1, {1280, 720});
     const auto eye = [&](const Vec3& p, int row) {
-        double sum = static_cast<double>(camera.view[12 + row]);
+        auto sum = static_cast<double>(camera.view[12 + row]);
         for (int c = 0; c < 3; ++c) {
             sum += static_cast<double>(camera.view[4 * c + row]) * static_cast<double>(p[static_cast<std::size_t>(c)]);
         }

@@ -12,7 +12,6 @@ using ledger::Event;
 using ledger::EventKind;
 using ledger::kNone;
 using ledger::Recording;
-using ledger::Step;
 using ::testing::ElementsAre;
 
 constexpr ledger::ActorId kGl = 0, kQueue = 1, kHost = 2;
