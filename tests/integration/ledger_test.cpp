@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
+#include <ostream>
 #include <tuple>
 
 #include "ledger_rig.hpp"
@@ -146,6 +147,9 @@ struct Lie {
     InfoLie info;
     const char* finding;  ///< nullptr: none
 };
+void PrintTo(const Lie& lie, std::ostream* to) {
+    *to << lie.name;
+}
 
 class SharedMemory : public LedgerTest, public ::testing::WithParamInterface<Lie> {};
 

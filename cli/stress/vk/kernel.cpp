@@ -7,9 +7,11 @@
 #include <shaders/stress_vert.h>
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "device/structs.hpp"
+#include "passes/pipeline_parts.hpp"
 #include "stress/chain.hpp"
 
 namespace sluice::stress {
@@ -20,33 +22,12 @@ using vk::vulkanError;
 
 constexpr std::uint32_t kGroup = 64;  ///< local_size_x of stress_buffer.comp
 constexpr std::uint32_t kMaxDescriptorSets = 64;
+constexpr const char* kName = "stress turn";
 
 /// kCodec and kMask of shaders/common/stress.glsl.
 std::array<std::uint32_t, 2> constantsOf(Resource resource) {
     const std::uint32_t codec = resource == Resource::R32F ? 1 : resource == Resource::D32F ? 2 : 0;
     return {codec, wordMask(resource)};
-}
-
-struct Module {
-    const vk::Device& device;
-    VkShaderModule handle = VK_NULL_HANDLE;
-    VkResult result = VK_SUCCESS;
-
-    Module(const vk::Device& owner, std::span<const std::uint32_t> code) : device(owner) {
-        auto info = vkStruct<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-        info.codeSize = code.size_bytes();
-        info.pCode = code.data();
-        result = device.fn.vkCreateShaderModule(device.handle, &info, nullptr, &handle);
-    }
-    Module(const Module&) = delete;
-    Module& operator=(const Module&) = delete;
-    ~Module() { device.fn.vkDestroyShaderModule(device.handle, handle, nullptr); }
-};
-
-constexpr std::array<VkSpecializationMapEntry, 2> kEntries{{{0, 0, 4}, {1, 4, 4}}};
-
-VkSpecializationInfo specialisation(const std::array<std::uint32_t, 2>& constants) {
-    return {static_cast<std::uint32_t>(kEntries.size()), kEntries.data(), sizeof(constants), constants.data()};
 }
 
 }  // namespace
@@ -68,98 +49,69 @@ VkFormat formatOf(Resource resource) {
 Result<std::unique_ptr<Kernel>> Kernel::create(const vk::Device& device, const Storage& storage) {
     auto kernel = std::make_unique<Kernel>(device);
     kernel->storage_ = storage;
-    if (Status status = kernel->createLayouts(); !status) {
+    if (Status status = kernel->createPipeline(); !status) {
         return status.error();
     }
-    if (Status status = kernel->isBuffer() ? kernel->createBufferPipeline() : kernel->createImagePipeline(); !status) {
+    if (Status status = kernel->createPool(); !status) {
         return status.error();
     }
     return kernel;
 }
 
 Kernel::~Kernel() {
-    device_.fn.vkDestroyPipeline(device_.handle, pipeline_, nullptr);
-    device_.fn.vkDestroyPipelineLayout(device_.handle, layout_, nullptr);
     device_.fn.vkDestroyDescriptorPool(device_.handle, pool_, nullptr);
-    device_.fn.vkDestroyDescriptorSetLayout(device_.handle, set_layout_, nullptr);
     device_.fn.vkDestroySampler(device_.handle, sampler_, nullptr);
 }
 
-Status Kernel::createLayouts() {
-    const VkDescriptorType type =
-        isBuffer() ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
-    const VkShaderStageFlags stages = isBuffer() ? VK_SHADER_STAGE_COMPUTE_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
-    std::vector<VkDescriptorSetLayoutBinding> bindings;
-    for (std::uint32_t index = 0; index < kMaxInputs + (isBuffer() ? 1 : 0); ++index) {
-        bindings.push_back({index, type, 1, stages, nullptr});
-    }
-    auto set = vkStruct<VkDescriptorSetLayoutCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO);
-    set.bindingCount = static_cast<std::uint32_t>(bindings.size());
-    set.pBindings = bindings.data();
-    VkResult result = device_.fn.vkCreateDescriptorSetLayout(device_.handle, &set, nullptr, &set_layout_);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "descriptor set layout of the stress test");
-    }
-    const VkDescriptorPoolSize size{type, set.bindingCount * kMaxDescriptorSets};
+Status Kernel::createPool() {
+    const VkDescriptorPoolSize size{descriptorType(), bindings() * kMaxDescriptorSets};
     auto pool = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = kMaxDescriptorSets;
     pool.poolSizeCount = 1;
     pool.pPoolSizes = &size;
-    result = device_.fn.vkCreateDescriptorPool(device_.handle, &pool, nullptr, &pool_);
+    VkResult result = device_.fn.vkCreateDescriptorPool(device_.handle, &pool, nullptr, &pool_);
     if (result != VK_SUCCESS) {
         return vulkanError(result, "descriptor pool of the stress test");
-    }
-    const VkPushConstantRange range{stages, 0, sizeof(TurnConstants)};
-    auto layout = vkStruct<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
-    layout.setLayoutCount = 1;
-    layout.pSetLayouts = &set_layout_;
-    layout.pushConstantRangeCount = 1;
-    layout.pPushConstantRanges = &range;
-    result = device_.fn.vkCreatePipelineLayout(device_.handle, &layout, nullptr, &layout_);
-    if (result != VK_SUCCESS) {
-        return vulkanError(result, "pipeline layout of the stress test");
     }
     const auto sampler = vkStruct<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);  // nearest; only fetched
     result = device_.fn.vkCreateSampler(device_.handle, &sampler, nullptr, &sampler_);
     return result == VK_SUCCESS ? Status{} : Status{vulkanError(result, "sampler of the stress test")};
 }
 
-Status Kernel::createBufferPipeline() {
-    const Module module(device_, stress_buffer_comp);
+Status Kernel::createPipeline() {
+    const std::vector<VkDescriptorType> types(bindings(), descriptorType());
     const auto constants = constantsOf(storage_.resource);
-    const VkSpecializationInfo special = specialisation(constants);
-    auto info = vkStruct<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
-    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
-    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-    info.stage.module = module.handle;
-    info.stage.pName = "main";
-    info.stage.pSpecializationInfo = &special;
-    info.layout = layout_;
-    const VkResult result =
-        module.result != VK_SUCCESS
-            ? module.result
-            : device_.fn.vkCreateComputePipelines(device_.handle, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
-    return result == VK_SUCCESS ? Status{} : Status{vulkanError(result, "compute pipeline of the stress test")};
+    if (isBuffer()) {
+        auto made = vk::createCompute(device_, {kName, stress_buffer_comp, types, sizeof(TurnConstants), constants});
+        if (!made) {
+            return made.error();
+        }
+        pipeline_ = std::move(made).value();
+        return {};
+    }
+    pipeline_.device = &device_;
+    Status layouts =
+        vk::createLayouts(device_, pipeline_, types, sizeof(TurnConstants), VK_SHADER_STAGE_FRAGMENT_BIT, kName);
+    return layouts ? createImagePipeline(constants) : layouts;
 }
 
-Status Kernel::createImagePipeline() {
+Status Kernel::createImagePipeline(std::span<const std::uint32_t> constants) {
     const bool depth = storage_.resource == Resource::D32F;
     const VkFormat format = formatOf(storage_.resource);
-    const Module vertex(device_, stress_vert);
-    const Module fragment(device_, depth ? std::span<const std::uint32_t>(stress_depth_frag)
-                                         : std::span<const std::uint32_t>(stress_colour_frag));
+    const vk::ShaderModule vertex(device_, stress_vert);
+    const vk::ShaderModule fragment(device_, depth ? std::span<const std::uint32_t>(stress_depth_frag)
+                                                   : std::span<const std::uint32_t>(stress_colour_frag));
     if (vertex.result != VK_SUCCESS || fragment.result != VK_SUCCESS) {
         return vulkanError(vertex.result != VK_SUCCESS ? vertex.result : fragment.result, "shaders of the stress test");
     }
-    const auto constants = constantsOf(storage_.resource);
-    const VkSpecializationInfo special = specialisation(constants);
+    const vk::Specialisation special(constants);
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};
     for (std::size_t index = 0; index < stages.size(); ++index) {
         stages.at(index).sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         stages.at(index).stage = index == 0 ? VK_SHADER_STAGE_VERTEX_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
         stages.at(index).module = index == 0 ? vertex.handle : fragment.handle;
         stages.at(index).pName = "main";
-        stages.at(index).pSpecializationInfo = index == 0 ? nullptr : &special;
+        stages.at(index).pSpecializationInfo = index == 0 ? nullptr : &special.info;
     }
     const auto input =
         vkStruct<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
@@ -206,9 +158,9 @@ Status Kernel::createImagePipeline() {
     info.pMultisampleState = &samples;
     info.pDepthStencilState = &depth_state;
     info.pColorBlendState = &blend;
-    info.layout = layout_;
+    info.layout = pipeline_.layout;
     const VkResult result =
-        device_.fn.vkCreateGraphicsPipelines(device_.handle, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_);
+        device_.fn.vkCreateGraphicsPipelines(device_.handle, VK_NULL_HANDLE, 1, &info, nullptr, &pipeline_.handle);
     return result == VK_SUCCESS ? Status{} : Status{vulkanError(result, "graphics pipeline of the stress test")};
 }
 
@@ -227,13 +179,13 @@ Result<VkDescriptorSet> Kernel::setFor(const std::array<SlotRef, kMaxInputs>& in
     auto allocate = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
     allocate.descriptorPool = pool_;
     allocate.descriptorSetCount = 1;
-    allocate.pSetLayouts = &set_layout_;
+    allocate.pSetLayouts = &pipeline_.set_layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
     if (const VkResult result = device_.fn.vkAllocateDescriptorSets(device_.handle, &allocate, &set);
         result != VK_SUCCESS) {
         return vulkanError(result, "descriptor set of the stress test");
     }
-    for (std::uint32_t binding = 0; binding < kMaxInputs + (isBuffer() ? 1 : 0); ++binding) {
+    for (std::uint32_t binding = 0; binding < bindings(); ++binding) {
         const SlotRef& ref = binding < kMaxInputs ? inputs.at(binding) : output;
         const VkDescriptorImageInfo image{sampler_, ref.view, VK_IMAGE_LAYOUT_GENERAL};
         const VkDescriptorBufferInfo buffer{ref.buffer, 0, VK_WHOLE_SIZE};
@@ -241,8 +193,7 @@ Result<VkDescriptorSet> Kernel::setFor(const std::array<SlotRef, kMaxInputs>& in
         write.dstSet = set;
         write.dstBinding = binding;
         write.descriptorCount = 1;
-        write.descriptorType =
-            isBuffer() ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+        write.descriptorType = descriptorType();
         write.pImageInfo = &image;
         write.pBufferInfo = &buffer;
         device_.fn.vkUpdateDescriptorSets(device_.handle, 1, &write, 0, nullptr);
@@ -259,9 +210,9 @@ Status Kernel::record(VkCommandBuffer commands, const std::array<SlotRef, kMaxIn
     }
     const VkPipelineBindPoint point = isBuffer() ? VK_PIPELINE_BIND_POINT_COMPUTE : VK_PIPELINE_BIND_POINT_GRAPHICS;
     const VkShaderStageFlags stages = isBuffer() ? VK_SHADER_STAGE_COMPUTE_BIT : VK_SHADER_STAGE_FRAGMENT_BIT;
-    device_.fn.vkCmdBindPipeline(commands, point, pipeline_);
-    device_.fn.vkCmdBindDescriptorSets(commands, point, layout_, 0, 1, &set.value(), 0, nullptr);
-    device_.fn.vkCmdPushConstants(commands, layout_, stages, 0, sizeof(constants), &constants);
+    device_.fn.vkCmdBindPipeline(commands, point, pipeline_.handle);
+    device_.fn.vkCmdBindDescriptorSets(commands, point, pipeline_.layout, 0, 1, &set.value(), 0, nullptr);
+    device_.fn.vkCmdPushConstants(commands, pipeline_.layout, stages, 0, sizeof(constants), &constants);
     if (isBuffer()) {
         device_.fn.vkCmdDispatch(commands, (constants.texels + kGroup - 1) / kGroup, 1, 1);
         return {};

@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <span>
 
 #include "device/device.hpp"
+#include "passes/pipeline.hpp"
 #include "sluice/result.hpp"
 #include "stress/slots.hpp"
 
@@ -42,19 +44,22 @@ class Kernel {
 
   private:
     using Key = std::array<std::uint64_t, kMaxInputs + 1>;
-    [[nodiscard]] Status createLayouts();
-    [[nodiscard]] Status createImagePipeline();
-    [[nodiscard]] Status createBufferPipeline();
+    [[nodiscard]] Status createPool();
+    [[nodiscard]] Status createPipeline();
+    [[nodiscard]] Status createImagePipeline(std::span<const std::uint32_t> constants);
     [[nodiscard]] Result<VkDescriptorSet> setFor(const std::array<SlotRef, kMaxInputs>& inputs, const SlotRef& output);
     [[nodiscard]] bool isBuffer() const { return storage_.resource == Resource::Buffer; }
+    [[nodiscard]] VkDescriptorType descriptorType() const {
+        return isBuffer() ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER : VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER;
+    }
+    /// The inputs, and of a buffer the output.
+    [[nodiscard]] std::uint32_t bindings() const { return kMaxInputs + (isBuffer() ? 1 : 0); }
 
     const vk::Device& device_;
     Storage storage_;
     VkSampler sampler_ = VK_NULL_HANDLE;
-    VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
-    VkPipelineLayout layout_ = VK_NULL_HANDLE;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    vk::Pipeline pipeline_;
     std::map<Key, VkDescriptorSet> sets_;
 };
 

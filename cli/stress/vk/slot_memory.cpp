@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "device/capabilities.hpp"
+#include "device/commands.hpp"
 #include "device/one_shot.hpp"
 #include "device/structs.hpp"
 #include "memory/buffer.hpp"
@@ -120,15 +121,8 @@ Result<std::vector<std::byte>> SlotMemory::read(std::uint32_t slot) const {
     Status copied = vk::runOnce(device_, [&](VkCommandBuffer commands) {
         const VkBufferCopy region{0, 0, bytes};
         device_.fn.vkCmdCopyBuffer(commands, buffers_[slot]->buffer(), staging.value().buffer(), 1, &region);
-        auto barrier = vkStruct<VkMemoryBarrier2>(VK_STRUCTURE_TYPE_MEMORY_BARRIER_2);
-        barrier.srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT;
-        barrier.srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT;
-        barrier.dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT;
-        barrier.dstAccessMask = VK_ACCESS_2_HOST_READ_BIT;
-        auto dependency = vkStruct<VkDependencyInfo>(VK_STRUCTURE_TYPE_DEPENDENCY_INFO);
-        dependency.memoryBarrierCount = 1;
-        dependency.pMemoryBarriers = &barrier;
-        device_.fn.vkCmdPipelineBarrier2(commands, &dependency);
+        vk::memoryBarrier(device_, commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                          VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
     if (!copied) {
         return copied.error();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Names and numbers: what is declared, and what the log speaks of without having declared it.
+#include "sluice/ledger/object_use.hpp"
 #include "state.hpp"
 
 namespace sluice::ledger {
@@ -105,32 +106,17 @@ Slot Ledger::State::resourceSlot(ObjectId id) {
 }
 
 Slot Ledger::State::objectSlot(const Event& event) {
-    switch (event.kind) {
-        case EventKind::Signal:
-        case EventKind::Wait:
-        case EventKind::WaitBegin:
+    switch (objectUse(event)) {
+        case ObjectUse::Sync:
             return syncSlot(event.object);
-        case EventKind::Submit:
-            return actor(static_cast<ActorId>(event.object)).slot;
-        case EventKind::Read:
-        case EventKind::Write:
-        case EventKind::Release:
-        case EventKind::Acquire:
-        case EventKind::Layout:
-        case EventKind::Names:
-        case EventKind::Export:
-        case EventKind::Import:
-        case EventKind::Witness:
+        case ObjectUse::Resource:
             return resourceSlot(event.object);
-        case EventKind::Destroy:
-            if (event.aux == static_cast<std::uint16_t>(ObjectClass::Sync)) {
-                return syncSlot(event.object);
-            }
-            return event.aux == static_cast<std::uint16_t>(ObjectClass::Resource) ? resourceSlot(event.object)
-                                                                                  : kNoSlot;
-        default:
-            return kNoSlot;
+        case ObjectUse::Actor:
+            return actor(static_cast<ActorId>(event.object)).slot;
+        case ObjectUse::None:
+            break;
     }
+    return kNoSlot;
 }
 
 void Ledger::State::keepBack(const Item& item) {
@@ -144,21 +130,16 @@ void Ledger::State::letGo(const Item& item) {
     if (count == nullptr || --*count != 0) {
         return;
     }
-    if (isSync(item.event) ? syncs[item.slot].retired : resources[item.slot].retired) {
-        (isSync(item.event) ? free_syncs : free_resources).push_back(item.slot);
+    if (objectUse(item.event) == ObjectUse::Sync ? syncs[item.slot].retired : resources[item.slot].retired) {
+        (objectUse(item.event) == ObjectUse::Sync ? free_syncs : free_resources).push_back(item.slot);
     }
-}
-
-bool Ledger::State::isSync(const Event& event) {
-    return event.kind == EventKind::Signal || event.kind == EventKind::Wait || event.kind == EventKind::WaitBegin ||
-           (event.kind == EventKind::Destroy && event.aux == static_cast<std::uint16_t>(ObjectClass::Sync));
 }
 
 std::uint32_t* Ledger::State::keptBack(const Item& item) {
     if (item.slot == kNoSlot || item.event.kind == EventKind::Submit) {
         return nullptr;
     }
-    return isSync(item.event) ? &syncs[item.slot].kept_back : &resources[item.slot].kept_back;
+    return objectUse(item.event) == ObjectUse::Sync ? &syncs[item.slot].kept_back : &resources[item.slot].kept_back;
 }
 
 std::size_t Ledger::State::bytes() const {

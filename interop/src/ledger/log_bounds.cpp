@@ -2,6 +2,7 @@
 #include "ledger/log_bounds.hpp"
 
 #include "ledger/log_bytes.hpp"
+#include "sluice/ledger/object_use.hpp"
 
 namespace sluice::ledger {
 namespace {
@@ -26,44 +27,25 @@ std::optional<Outside> outsideOfBounds(const std::byte* from) {
         return actor;
     }
     constexpr std::size_t kObject = offsetof(Event, object), kAux = offsetof(Event, aux);
-    // What `object` and `aux` number depends on the kind; descriptors are numbers of the system's and free.
-    switch (event.kind) {
-        case EventKind::Submit:
+    std::optional<Outside> aux;
+    if (event.kind == EventKind::Destroy) {
+        aux = above(kAux, "a class of object", event.aux, countUpTo(ObjectClass::Fd));
+    } else if (event.kind == EventKind::Witness) {
+        aux = above(kAux, "a verdict", event.aux, countUpTo(Verdict::Torn));
+    } else if ((event.kind == EventKind::Release || event.kind == EventKind::Acquire) && event.aux != kNoActor) {
+        aux = above(kAux, "the other owner", event.aux, kMaxActors);
+    }
+    if (aux) {
+        return aux;
+    }
+    switch (objectUse(event)) {
+        case ObjectUse::Actor:
             return above(kObject, "a stream", event.object, kMaxActors);
-        case EventKind::Release:
-        case EventKind::Acquire:
-            if (event.aux != kNoActor && event.aux >= kMaxActors) {
-                return above(kAux, "the other owner", event.aux, kMaxActors);
-            }
-            return above(kObject, "a resource", event.object, kMaxObjects);
-        case EventKind::Destroy:
-            if (auto sort = above(kAux, "a class of object", event.aux, countUpTo(ObjectClass::Fd))) {
-                return sort;
-            }
-            return event.aux == static_cast<std::uint16_t>(ObjectClass::Fd)
-                       ? std::nullopt
-                       : above(kObject, "an object", event.object, kMaxObjects);
-        case EventKind::Witness:
-            if (auto verdict = above(kAux, "a verdict", event.aux, countUpTo(Verdict::Torn))) {
-                return verdict;
-            }
-            return above(kObject, "a resource", event.object, kMaxObjects);
-        case EventKind::Signal:
-        case EventKind::Wait:
-        case EventKind::WaitBegin:
+        case ObjectUse::Sync:
             return above(kObject, "a sync object", event.object, kMaxObjects);
-        case EventKind::Read:
-        case EventKind::Write:
-        case EventKind::Layout:
-        case EventKind::Names:
-        case EventKind::Export:
-        case EventKind::Import:
+        case ObjectUse::Resource:
             return above(kObject, "a resource", event.object, kMaxObjects);
-        case EventKind::FdOpen:
-        case EventKind::FdGive:
-        case EventKind::FdClose:
-        case EventKind::Frame:
-        case EventKind::ActorEnd:
+        case ObjectUse::None:
             break;
     }
     return std::nullopt;

@@ -115,6 +115,14 @@ struct LogWriter::State {
         put(static_cast<std::uint32_t>(type));
         put(static_cast<std::uint32_t>(bytes));
     }
+    /// The same for a chunk that has its own head and `bytes` at once; false as room() is.
+    bool begin(ChunkType type, std::size_t bytes) {
+        const bool fits = room(kChunkHeaderBytes + bytes);
+        if (fits) {
+            chunk(type, bytes);
+        }
+        return fits;
+    }
 };
 
 LogWriter::LogWriter() : state_(std::make_unique<State>()) {}
@@ -152,10 +160,9 @@ Status LogWriter::close() {
 void LogWriter::declareActor(ActorId id, ActorKind kind, std::string_view name) {
     name = bounded(name);
     const std::scoped_lock lock(state_->mutex);
-    if (!state_->room(kChunkHeaderBytes + kActorBytes + name.size())) {
+    if (!state_->begin(ChunkType::Actor, kActorBytes + name.size())) {
         return;
     }
-    state_->chunk(ChunkType::Actor, kActorBytes + name.size());
     state_->put(id);
     state_->put(kind);
     state_->put(std::uint8_t{0});
@@ -166,10 +173,9 @@ void LogWriter::declareSync(ObjectId id, SyncKind kind, std::string_view name, s
                             std::uint16_t flags) {
     name = bounded(name);
     const std::scoped_lock lock(state_->mutex);
-    if (!state_->room(kChunkHeaderBytes + kSyncBytes + name.size())) {
+    if (!state_->begin(ChunkType::Sync, kSyncBytes + name.size())) {
         return;
     }
-    state_->chunk(ChunkType::Sync, kSyncBytes + name.size());
     state_->put(id);
     state_->put(kind);
     state_->put(std::uint8_t{0});
@@ -181,10 +187,9 @@ void LogWriter::declareSync(ObjectId id, SyncKind kind, std::string_view name, s
 void LogWriter::declareResource(ObjectId id, std::string_view name, std::uint32_t layout, ActorId owner) {
     name = bounded(name);
     const std::scoped_lock lock(state_->mutex);
-    if (!state_->room(kChunkHeaderBytes + kResourceBytes + name.size())) {
+    if (!state_->begin(ChunkType::Resource, kResourceBytes + name.size())) {
         return;
     }
-    state_->chunk(ChunkType::Resource, kResourceBytes + name.size());
     state_->put(id);
     state_->put(layout);
     state_->put(owner);
@@ -195,10 +200,9 @@ void LogWriter::declareResource(ObjectId id, std::string_view name, std::uint32_
 void LogWriter::memoryFacts(ObjectId id, const MemoryFacts& facts) {
     static_assert(sizeof(MemoryFacts) == kMemoryBytes - sizeof(ObjectId));
     const std::scoped_lock lock(state_->mutex);
-    if (!state_->room(kChunkHeaderBytes + kMemoryBytes)) {
+    if (!state_->begin(ChunkType::Memory, kMemoryBytes)) {
         return;
     }
-    state_->chunk(ChunkType::Memory, kMemoryBytes);
     state_->put(id);
     state_->put(facts);
 }

@@ -5,38 +5,6 @@
 
 namespace sluice::ledger {
 
-ObjectUse objectUse(const Event& event) {
-    switch (event.kind) {
-        case EventKind::Signal:
-        case EventKind::Wait:
-        case EventKind::WaitBegin:
-            return ObjectUse::Sync;
-        case EventKind::Submit:
-            return ObjectUse::Actor;
-        case EventKind::Read:
-        case EventKind::Write:
-        case EventKind::Release:
-        case EventKind::Acquire:
-        case EventKind::Layout:
-        case EventKind::Names:
-        case EventKind::Export:
-        case EventKind::Import:
-        case EventKind::Witness:
-            return ObjectUse::Resource;
-        case EventKind::Destroy:
-            return event.aux == static_cast<std::uint16_t>(ObjectClass::Sync)       ? ObjectUse::Sync
-                   : event.aux == static_cast<std::uint16_t>(ObjectClass::Resource) ? ObjectUse::Resource
-                                                                                    : ObjectUse::None;
-        case EventKind::FdOpen:
-        case EventKind::FdGive:
-        case EventKind::FdClose:
-        case EventKind::Frame:
-        case EventKind::ActorEnd:
-            break;
-    }
-    return ObjectUse::None;
-}
-
 struct Recorder::State {
     Recording recording;
     std::unordered_map<std::uint32_t, std::uint32_t> actors, syncs, resources;  ///< the index that an id has now

@@ -48,7 +48,6 @@ struct Ledger::State {
     // declare.cpp: objects that events of held actors still mean
     void keepBack(const Item& item);
     void letGo(const Item& item);
-    [[nodiscard]] static bool isSync(const Event& event);
     [[nodiscard]] std::uint32_t* keptBack(const Item& item);
     void runHeld();
     [[nodiscard]] std::size_t bytes() const;

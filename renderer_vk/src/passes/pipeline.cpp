@@ -8,45 +8,9 @@
 #include <vector>
 
 #include "device/structs.hpp"
+#include "passes/pipeline_parts.hpp"
 
 namespace sluice::vk {
-namespace {
-
-/// A shader module for the length of one pipeline's creation.
-class Module {
-  public:
-    Module(const Device& device, std::span<const std::uint32_t> code) : device_(device) {
-        auto info = vkStruct<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
-        info.codeSize = code.size_bytes();
-        info.pCode = code.data();
-        result = device.fn.vkCreateShaderModule(device.handle, &info, nullptr, &handle);
-    }
-    Module(const Module&) = delete;
-    Module& operator=(const Module&) = delete;
-    ~Module() { device_.fn.vkDestroyShaderModule(device_.handle, handle, nullptr); }
-
-    VkShaderModule handle = VK_NULL_HANDLE;
-    VkResult result = VK_SUCCESS;
-
-  private:
-    const Device& device_;
-};
-
-/// Specialisation constants as Vulkan wants them: 32 bits each, ids from 0.
-struct Specialisation {
-    explicit Specialisation(std::span<const std::uint32_t> constants) {
-        for (std::uint32_t id = 0; id < constants.size(); ++id) {
-            entries.push_back({id, id * 4U, 4});
-        }
-        info.mapEntryCount = static_cast<std::uint32_t>(entries.size());
-        info.pMapEntries = entries.data();
-        info.dataSize = constants.size_bytes();
-        info.pData = constants.data();
-    }
-    std::vector<VkSpecializationMapEntry> entries;
-    VkSpecializationInfo info{};
-};
-
 Status createLayouts(const Device& device, Pipeline& pipeline, std::span<const VkDescriptorType> types,
                      std::uint32_t push_bytes, VkShaderStageFlags stages, const char* name) {
     std::vector<VkDescriptorSetLayoutBinding> bindings;
@@ -73,8 +37,6 @@ Status createLayouts(const Device& device, Pipeline& pipeline, std::span<const V
     }
     return {};
 }
-
-}  // namespace
 
 Pipeline::Pipeline(Pipeline&& other) noexcept {
     *this = std::move(other);
@@ -116,7 +78,7 @@ Result<Pipeline> createCompute(const Device& device, const ComputeDesc& desc) {
         !status) {
         return status.error();
     }
-    const Module module(device, desc.code);
+    const ShaderModule module(device, desc.code);
     if (module.result != VK_SUCCESS) {
         return vulkanError(module.result, fmt::format("shader of {}", desc.name));
     }
@@ -145,8 +107,8 @@ Result<Pipeline> createSplat(const Device& device, const SplatDesc& desc) {
         !status) {
         return status.error();
     }
-    const Module vertex(device, desc.vertex);
-    const Module fragment(device, desc.fragment);
+    const ShaderModule vertex(device, desc.vertex);
+    const ShaderModule fragment(device, desc.fragment);
     if (vertex.result != VK_SUCCESS || fragment.result != VK_SUCCESS) {
         return vulkanError(vertex.result != VK_SUCCESS ? vertex.result : fragment.result,
                            fmt::format("shaders of {}", desc.name));

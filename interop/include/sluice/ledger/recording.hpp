@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "sluice/ledger/log.hpp"
+#include "sluice/ledger/object_use.hpp"
 
 namespace sluice::ledger {
 
@@ -42,10 +43,6 @@ struct Recording {
     std::vector<RecordedEvent> events;  ///< in the log's order; Event::sequence is the index
     LogSummary summary;
 };
-
-enum class ObjectUse : std::uint8_t { None, Sync, Resource, Actor };
-/// What Event::object numbers in this event.
-[[nodiscard]] ObjectUse objectUse(const Event& event);
 
 /// Gathers a Recording from declarations and events as they come. What was never declared is named as the Ledger names
 /// it: "actor 3", "sync 5", "resource 0".
