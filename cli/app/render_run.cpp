@@ -20,11 +20,15 @@
 namespace sluice::cli {
 namespace {
 
-/// Says it once, as an error, and remembers it for the summary.
+/// Says it once, as an error, unless FluidHost has, and remembers it for the summary.
 void noteProblem(Run& run, const Error& error) {
     const std::string message = error.message();
+    const bool refused = error.code == SLUICE_ERROR_INVALID_ARGUMENT || error.code == SLUICE_ERROR_UNSUPPORTED;
+    const bool told = run.session.fluid && run.session.fluid->recovering() && !refused;
     if (run.summary.problems.empty() || run.summary.problems.back() != message) {
-        log(SLUICE_LOG_ERROR, message + "; the host's frame goes on without fluid");
+        if (!told) {
+            log(SLUICE_LOG_ERROR, message + "; the host's frame goes on without fluid");
+        }
         run.summary.problems.push_back(message);
     }
     run.summary.exit_code = kExitNoFluid;

@@ -8,6 +8,8 @@
 #include <exception>
 #include <string_view>
 
+#include "sluice/abi_sizes.hpp"
+#include "sluice/abi_table.hpp"
 #include "sluice/isolate/server.hpp"
 
 namespace {
@@ -24,12 +26,17 @@ int run(const char* plugin) {
     }
     void* symbol = ::dlsym(library, SLUICE_RENDERER_ENTRY_SYMBOL);
     const auto entry = reinterpret_cast<SluiceRendererEntry>(symbol);
-    const SluiceRendererApi* api = entry != nullptr ? entry(SLUICE_ABI_VERSION) : nullptr;
-    if (api == nullptr) {
-        return fail(plugin, "is no Sluice renderer of this ABI");
+    if (entry == nullptr) {
+        return fail(plugin, "does not export '" SLUICE_RENDERER_ENTRY_SYMBOL "'");
     }
+    // The host has not seen the table, so it is held here to what a host in one process holds it to.
+    const SluiceRendererApi* const found = entry(SLUICE_ABI_VERSION);
+    if (const sluice::Status status = sluice::checkRendererTable({}, found); !status) {
+        return fail(plugin, status.error().message().c_str());
+    }
+    const SluiceRendererApi api = sluice::readAbiStruct(*found);
     const sluice::isolate::Channel channel{sluice::UniqueFd(sluice::isolate::kChannelFd)};
-    if (const sluice::Status served = sluice::isolate::serve(*api, channel); !served) {
+    if (const sluice::Status served = sluice::isolate::serve(api, channel); !served) {
         return fail("host", served.error().message().c_str());
     }
     return 0;

@@ -124,7 +124,7 @@ TEST_F(LedgerOption, ADroppedSignalCostsOneFrameItsFluidAndTheLogTellsWhoWaitsFo
 }
 
 TEST_F(LedgerOption, ALostDeviceCostsOneFrameItsFluidAndAnotherRendererGoesOn) {
-    const Outcome outcome = run("render s.json -o a_####.png --frames 1..4 --fault device-lost@2 --json");
+    const Outcome outcome = run("render s.json -o a_####.png --frames 1..4 --fault device-lost@2 --json -v");
     EXPECT_EQ(outcome.code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("renderer: here again after 1 frame without fluid"));
     const auto frames = nlohmann::json::parse(outcome.out).at("frames");

@@ -7,6 +7,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -75,6 +76,29 @@ TEST(PluginLibrary, MovesItsHandle) {
     const PluginLibrary moved = std::move(library).value();
     EXPECT_EQ(moved.api().struct_size, sizeof(SluiceRendererApi));
     EXPECT_EQ(moved.path(), plugin("no_images"));
+}
+
+TEST(PluginLibrary, AProcessRefusesTheSamePluginsByNameAndDoesNotCrash) {
+    struct Case {
+        const char* name;
+        const char* said;
+    };
+    for (const auto& [name, said] :
+         {Case{"symbol", "does not export 'sluice_renderer_entry'"}, Case{"table", "does not serve ABI 1.0"},
+          Case{"abi_major", "expected ABI major 1, found 2"},
+          Case{"short_table", "expected a function table of at least"},
+          Case{"null_function", "NULL for 'submit_frame'"}}) {
+        IsolationConfig config;
+        config.program = SLUICE_RENDERER_PROCESS;
+        config.plugin = plugin(name);
+        ::testing::internal::CaptureStderr();
+        const Result<PluginLibrary> library = PluginLibrary::isolated(config);
+        const std::string lines = ::testing::internal::GetCapturedStderr();
+        ASSERT_FALSE(library) << name;
+        EXPECT_THAT(library.error().message(), HasSubstr("ended with exit code 1 during its start"));
+        EXPECT_THAT(lines, AllOf(HasSubstr(std::string("sluice-renderer: ") + plugin(name).string()), HasSubstr(said)));
+        EXPECT_EQ(std::count(lines.begin(), lines.end(), '\n'), 1) << lines;
+    }
 }
 
 class BrokenRenderer : public GlTest {

@@ -6,10 +6,11 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
+#include <thread>
 
+#include "children.hpp"
 #include "echo_rig.hpp"
 #include "gl_test.hpp"
 #include "sluice/abi_sizes.hpp"
@@ -23,18 +24,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
-
-/// Processes that this one has started and not reaped.
-std::vector<pid_t> children() {
-    std::vector<pid_t> found;
-    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
-        std::ifstream list(task.path() / "children");
-        for (pid_t pid = 0; list >> pid;) {
-            found.push_back(pid);
-        }
-    }
-    return found;
-}
 
 class IsolationTest : public EchoTest {
   protected:
@@ -169,6 +158,43 @@ TEST_F(IsolationTest, AProcessThatHangsIsKilledAtItsDeadline) {
     complaints_.clear();
     host_.reset();
     EXPECT_THAT(children(), SizeIs(before.size()));
+}
+
+TEST_F(IsolationTest, AProcessThatDiedWhileItWaitedIsNotHandedOut) {
+    const std::vector<pid_t> before = children();
+    ASSERT_NO_FATAL_FAILURE(isolate());
+    std::vector<pid_t> now = children();
+    std::erase_if(now, [&](pid_t pid) { return std::count(before.begin(), before.end(), pid) != 0; });
+    ASSERT_THAT(now, SizeIs(1));
+    ASSERT_EQ(::kill(now.front(), SIGKILL), 0);
+    // Until it has ended; the library's own thread may be faster and reap it.
+    siginfo_t info{};
+    (void)::waitid(P_PID, static_cast<id_t>(now.front()), &info, WEXITED | WNOWAIT);
+    ASSERT_NO_FATAL_FAILURE(makeScreen(kEchoWidth, kEchoHeight));
+    ASSERT_NO_FATAL_FAILURE(makeHost(config()));
+    ASSERT_NO_FATAL_FAILURE(frameIsClean());
+}
+
+TEST_F(IsolationTest, OneLibraryServesSeveralThreads) {
+    ASSERT_NO_FATAL_FAILURE(isolate());
+    auto needs = sized<SluiceSceneNeeds>();
+    needs.width = needs.height = 64;
+    needs.particle_count = 10;
+    needs.fluid = echoInput().fluid;
+    std::atomic<int> failures = 0;
+    std::atomic<int> lines = 0;
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 0; i < 3; ++i) {
+            threads.emplace_back([&] {
+                const auto sink = [](void* user, const char*) { ++*static_cast<std::atomic<int>*>(user); };
+                auto error = sized<SluiceError>();
+                failures += library_->api().explain(&needs, sink, &lines, &error) == SLUICE_OK ? 0 : 1;
+            });
+        }
+    }
+    EXPECT_EQ(failures, 0);
+    EXPECT_GE(lines, 3);
 }
 
 TEST_F(IsolationTest, WhatIsNoProgramOrNoPluginIsSaidByName) {

@@ -64,8 +64,7 @@ void VulkanProcess::watch() {
     std::array<pollfd, 2> watched{{{channel_.fd(), 0, 0}, {child_.endFd(), POLLIN, 0}}};
     while (::poll(watched.data(), watched.size(), -1) < 0) {
     }
-    bool clean = false;
-    const std::string how = child_.reap(kGraceNs, clean);
+    const std::string how = child_.reap(kGraceNs).text();
     {
         const std::lock_guard lock(mutex_);
         end_ = Error{SLUICE_ERROR_DEVICE_LOST, name(),
@@ -85,6 +84,7 @@ void VulkanProcess::condemn(std::string blame) {
         blame_ = std::move(blame);
     }
     child_.kill();
+    channel_.shutdown();  // wakes the watcher even if SIGKILL does not end the process
 }
 
 Error VulkanProcess::gone() {

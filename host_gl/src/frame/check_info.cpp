@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <string>
 #include <utility>
 
+#include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::host {
@@ -36,14 +38,18 @@ Status checkSet(const SluiceRendererInfo& info, const ImageTable& images, std::u
     return {};
 }
 
-}  // namespace
-
-Status checkExtent(std::uint32_t width, std::uint32_t height) {
+Status checkSides(std::uint32_t width, std::uint32_t height, const char* what) {
     if (width == 0 || height == 0 || width > SLUICE_MAX_EXTENT || height > SLUICE_MAX_EXTENT) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "size of the shared images",
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, what,
                      fmt::format("expected 1..{} a side, found {}x{}", SLUICE_MAX_EXTENT, width, height), ""};
     }
     return {};
+}
+
+}  // namespace
+
+Status checkExtent(std::uint32_t width, std::uint32_t height) {
+    return checkSides(width, height, "size of the shared images");
 }
 
 Status checkConfig(const FluidHostConfig& config) {
@@ -56,6 +62,35 @@ Status checkConfig(const FluidHostConfig& config) {
                      "sluice/host_gl/fault_plan.hpp tells which are"};
     }
     return checkExtent(config.width, config.height);
+}
+
+Status checkPart(const SluiceParticles& particles) {
+    if (Status status = checkAbiStruct(&particles, "particles"); !status) {
+        return status;
+    }
+    if (particles.count != 0 && particles.position == nullptr) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "particles.position",
+                     fmt::format("it is NULL with a count of {}", particles.count), ""};
+    }
+    if (particles.count != 0 && (!std::isfinite(particles.radius) || particles.radius <= 0.0F)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "particles.radius",
+                     fmt::format("{} is not a positive length in metres", particles.radius), ""};
+    }
+    return {};
+}
+
+Status checkPart(const SluiceEnvironment* environment) {
+    if (environment == nullptr) {
+        return {};
+    }
+    if (Status status = checkAbiStruct(environment, "environment"); !status) {
+        return status;
+    }
+    if (environment->pixels == nullptr) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "environment.pixels", "it is NULL",
+                     "pass a NULL environment for the procedural sky"};
+    }
+    return checkSides(environment->width, environment->height, "size of the environment map");
 }
 
 Status checkInfo(const SluiceRendererInfo& info, const FluidHostConfig& config, const ImageTable& images) {

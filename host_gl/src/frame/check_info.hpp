@@ -13,6 +13,9 @@ namespace sluice::host {
 
 [[nodiscard]] Status checkExtent(std::uint32_t width, std::uint32_t height);
 [[nodiscard]] Status checkConfig(const FluidHostConfig& config);
+/// What can be known of a part of the scene without a renderer; what passes may be read as far as it says.
+[[nodiscard]] Status checkPart(const SluiceParticles& particles);
+[[nodiscard]] Status checkPart(const SluiceEnvironment* environment);
 /// The renderer's account must agree with what was asked for and with the images that it shared.
 [[nodiscard]] Status checkInfo(const SluiceRendererInfo& info, const FluidHostConfig& config, const ImageTable& images);
 

@@ -16,6 +16,8 @@ class KeptScene {
     void keep(const SluiceParticles& particles);
     /// nullptr: the procedural sky.
     void keep(const SluiceEnvironment* environment);
+    void forgetParticles() { has_particles_ = false; }
+    void forgetEnvironment() { pixels_.clear(); }
 
     /// Views of the copies, valid until the next keep(); empty when nothing was set.
     [[nodiscard]] std::optional<SluiceParticles> particles() const;

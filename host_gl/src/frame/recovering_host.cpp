@@ -42,12 +42,29 @@ Status RecoveringHost::beginWithScene() {
         return status;
     }
     if (const auto environment = scene_.environment()) {
-        if (Status status = life_->setEnvironment(&*environment); !status) {
+        Status status = life_->setEnvironment(&*environment);
+        if (refused(status)) {
+            scene_.forgetEnvironment();
+            drop("environment", status.error());
+        } else if (!status) {
             return status;
         }
     }
-    const auto particles = scene_.particles();
-    return particles ? life_->setParticles(*particles) : Status{};
+    if (const auto particles = scene_.particles()) {
+        Status status = life_->setParticles(*particles);
+        if (refused(status)) {
+            scene_.forgetParticles();
+            drop("particles", status.error());
+        } else if (!status) {
+            return status;
+        }
+    }
+    return {};
+}
+
+void RecoveringHost::drop(const char* part, const Error& refusal) {
+    log(SLUICE_LOG_WARNING,
+        fmt::format("renderer: the {} set last: dropped, the new renderer refuses it: {}", part, refusal.message()));
 }
 
 Status RecoveringHost::revive() {
@@ -80,13 +97,15 @@ Status RecoveringHost::tryAgain() {
     recovery_.tried(status.ok());
     const auto ms = [](std::uint64_t from) { return static_cast<double>(monotonicNanoseconds() - from) * 1e-6; };
     if (status) {
-        log(SLUICE_LOG_WARNING,
+        // What came as it was announced is no warning.
+        log(try_failed_ ? SLUICE_LOG_WARNING : SLUICE_LOG_INFO,
             fmt::format("renderer: here again after {} without fluid and {:.0f} ms, of which its creation took {:.0f} "
                         "ms (try {} of {})",
                         frames(without_fluid_ - std::min<std::uint64_t>(without_fluid_, 1)), ms(down_since_ns_),
                         ms(began), recovery_.tries(), config_.recovery.attempts));
         return {};
     }
+    try_failed_ = true;
     cause_ = status.error().message();
     const std::string next = recovery_.givenUp() ? std::string("given up; destroy the FluidHost and create it again")
                                                  : fmt::format("the next one in {}", frames(recovery_.framesToGo()));
@@ -108,12 +127,15 @@ void RecoveringHost::fault(const Error& cause) {
     }
     recovery_.fault();
     down_since_ns_ = monotonicNanoseconds();
-    cause_ = cause.message();
-    log(SLUICE_LOG_WARNING,
+    try_failed_ = false;
+    cause_ = Error{cause.code, cause.thing, cause.detail, {}}.message();  // the remedy is what is done here
+    log(SLUICE_LOG_ERROR,
         recovery_.givenUp()
             ? fmt::format("renderer: useless once more after {} tries, given up: {}", recovery_.tries(), cause_)
-            : fmt::format("renderer: useless from frame {} on, created again in {} (try {} of {}): {}", last_fluid_ + 1,
-                          frames(recovery_.framesToGo()), recovery_.tries() + 1, config_.recovery.attempts, cause_));
+            : fmt::format("renderer: useless from frame {} on, created again in {} (try {} of {}), until then the "
+                          "host's frames go on without fluid: {}",
+                          last_fluid_ + 1, frames(recovery_.framesToGo()), recovery_.tries() + 1,
+                          config_.recovery.attempts, cause_));
 }
 
 Error RecoveringHost::whileDown(const char* call) const {

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "frame/call_watch.hpp"
+#include "frame/check_info.hpp"
 #include "frame/fault_injector.hpp"
 #include "frame/kept_scene.hpp"
 #include "frame/renderer_life.hpp"
@@ -32,6 +33,12 @@ template <typename Body>
     } catch (const std::exception&) {
         return Error{SLUICE_ERROR_INTERNAL, kThrown, "an exception", ""};
     }
+}
+
+/// The arguments were at fault, and would be with any renderer here.
+[[nodiscard]] inline bool refused(const Status& status) {
+    return !status &&
+           (status.error().code == SLUICE_ERROR_INVALID_ARGUMENT || status.error().code == SLUICE_ERROR_UNSUPPORTED);
 }
 
 /// One renderer after the other, and the numbers and the scene that they share.
@@ -97,6 +104,7 @@ class RecoveringHost final : public FluidHost {
         return life_ && !recovery_.down() ? life_->texture(role) : 0;
     }
     [[nodiscard]] std::uint32_t renderers() const override { return renderers_; }
+    [[nodiscard]] bool recovering() const override { return recovery_.down(); }
 
   private:
     /// Without recovery the present renderer answers for itself, whatever has become of it.
@@ -107,6 +115,8 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Status checkContext();
     [[nodiscard]] Status begin();
     [[nodiscard]] Status beginWithScene();
+    /// A part of the scene that the new renderer refuses, as every one after it would, goes, and that is said.
+    void drop(const char* part, const Error& refusal);
     [[nodiscard]] Status replaceImages(std::uint32_t width, std::uint32_t height);
     template <typename Call, typename Value>
     [[nodiscard]] Status give(Call call, const Value& value);
@@ -133,16 +143,15 @@ class RecoveringHost final : public FluidHost {
     std::uint64_t without_fluid_ = 0;  ///< submits since the last composite
     std::uint64_t last_fluid_ = 0;     ///< the frame of that composite
     std::uint64_t down_since_ns_ = 0;
+    bool try_failed_ = false;  ///< since the fault
     std::string cause_;
     std::string_view context_loss_;  ///< empty while there is a context
 };
 
 template <typename Call, typename Value>
 Status RecoveringHost::give(Call call, const Value& value) {
-    Status status = recovery_.down() ? Status{} : judged(call());
-    const bool refused = !status && (status.error().code == SLUICE_ERROR_INVALID_ARGUMENT ||
-                                     status.error().code == SLUICE_ERROR_UNSUPPORTED);
-    if (recovers() && !refused) {
+    Status status = recovery_.down() ? checkPart(value) : judged(call());
+    if (recovers() && !refused(status)) {
         scene_.keep(value);
     }
     return status;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "isolate/child.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <poll.h>
 #include <spawn.h>
@@ -14,6 +15,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <exception>
 #include <thread>
 
 #include "sluice/isolate/server.hpp"
@@ -23,13 +25,24 @@ namespace sluice::host {
 
 namespace {
 
-std::string howItEnded(int status) {
-    if (WIFSIGNALED(status)) {
-        const int number = WTERMSIG(status);
-        const char* name = ::sigabbrev_np(number);
-        return fmt::format("was killed by signal {} (SIG{})", number, name != nullptr ? name : "?");
+/// Reaps it whenever the kernel lets go of it. Nothing of this process is touched, so nobody waits for that thread.
+void leaveToReaper(pid_t pid) {
+    try {
+        std::thread([pid] {
+            int status = 0;
+            while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+            }
+        }).detach();
+    } catch (const std::exception&) {
+        // It stays a zombie until this process ends.
     }
-    return fmt::format("ended with exit code {}", WEXITSTATUS(status));
+}
+
+/// Whether a program that this process starts would find `fd` open. What is close-on-exec there is no standard stream
+/// but some file that was opened after the stream had been closed, the channel perhaps.
+bool isHandedOn(int fd) {
+    const int flags = ::fcntl(fd, F_GETFD);
+    return flags >= 0 && (flags & FD_CLOEXEC) == 0;
 }
 
 /// Owns what posix_spawn reads.
@@ -50,18 +63,46 @@ struct SpawnActions {
 
 }  // namespace
 
+bool ChildEnd::clean() const {
+    return kind == Kind::Reaped && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+std::string ChildEnd::text() const {
+    switch (kind) {
+        case Kind::Unknown:
+            return "has ended, how is not known";
+        case Kind::Stuck:
+            return fmt::format("has not ended {:.3f} s after SIGKILL, stuck in the kernel, and is left behind",
+                               static_cast<double>(after_kill_ns) * 1e-9);
+        case Kind::Reaped:
+            break;
+    }
+    if (WIFSIGNALED(status)) {
+        const int number = WTERMSIG(status);
+        const char* name = ::sigabbrev_np(number);
+        return fmt::format("was killed by signal {} (SIG{})", number, name != nullptr ? name : "?");
+    }
+    return fmt::format("ended with exit code {}", WEXITSTATUS(status));
+}
+
 Child::~Child() {
     if (pid_ > 0) {
-        bool clean = false;
-        static_cast<void>(reap(0, clean));
+        static_cast<void>(reap(0));
     }
 }
 
 Status Child::start(const std::filesystem::path& program, const std::string& argument,
                     const isolate::Channel& channel) {
     SpawnActions spawn;
-    posix_spawn_file_actions_adddup2(&spawn.files, STDERR_FILENO, STDOUT_FILENO);
+    // The channel first: where this process lacks a standard stream, it may be one of the three numbers.
     posix_spawn_file_actions_adddup2(&spawn.files, channel.fd(), isolate::kChannelFd);
+    if (!isHandedOn(STDIN_FILENO)) {
+        posix_spawn_file_actions_addopen(&spawn.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    }
+    if (!isHandedOn(STDERR_FILENO)) {
+        posix_spawn_file_actions_addopen(&spawn.files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
+    }
+    posix_spawn_file_actions_adddup2(&spawn.files, STDERR_FILENO, STDOUT_FILENO);
     // Drivers and applications do not mark every descriptor of theirs close-on-exec.
     posix_spawn_file_actions_addclosefrom_np(&spawn.files, isolate::kChannelFd + 1);
     sigset_t none;
@@ -91,33 +132,44 @@ void Child::kill() {
     }
 }
 
-std::string Child::reap(std::uint64_t grace_ns, bool& clean) {
-    clean = false;
+bool Child::waited(ChildEnd& end) {
+    int status = 0;
+    const pid_t found = watch_.wait ? watch_.wait(pid_, &status) : ::waitpid(pid_, &status, WNOHANG);
+    if (found == pid_) {
+        end.kind = ChildEnd::Kind::Reaped;
+        end.status = status;
+        return true;
+    }
+    return found < 0 && errno != EINTR;  // somebody else has reaped it
+}
+
+ChildEnd Child::reap(std::uint64_t grace_ns) {
+    ChildEnd end;
     const std::uint64_t begin = monotonicNanoseconds();
-    for (;;) {
+    std::uint64_t killed = 0;
+    for (bool readable = false;;) {
         {
             const std::lock_guard lock(mutex_);
-            if (!running_) {
-                return "has ended";
-            }
-            int status = 0;
-            const pid_t found = ::waitpid(pid_, &status, WNOHANG);
-            if (found == pid_) {
+            if (!running_ || waited(end)) {
                 running_ = false;
-                clean = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-                return howItEnded(status);
+                return end;
             }
-            if (found < 0 && errno != EINTR) {
-                running_ = false;  // somebody else of this process has reaped it
-                return "has ended, how is not known";
-            }
-            if (monotonicNanoseconds() - begin >= grace_ns) {
+            const std::uint64_t now = monotonicNanoseconds();
+            if (now - begin >= grace_ns) {
+                killed = killed == 0 ? now : killed;
                 ::kill(pid_, SIGKILL);
+                if (now - killed >= watch_.after_kill_ns) {
+                    running_ = false;
+                    leaveToReaper(pid_);
+                    end.kind = ChildEnd::Kind::Stuck;
+                    end.after_kill_ns = watch_.after_kill_ns;
+                    return end;
+                }
             }
         }
-        if (pidfd_.valid()) {
-            pollfd end{pidfd_.get(), POLLIN, 0};
-            static_cast<void>(::poll(&end, 1, 50));
+        if (pidfd_.valid() && !readable) {
+            pollfd ended{pidfd_.get(), POLLIN, 0};
+            readable = ::poll(&ended, 1, 50) > 0;
         } else {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         }

@@ -6,8 +6,10 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <string>
+#include <utility>
 
 #include "sluice/fd.hpp"
 #include "sluice/isolate/channel.hpp"
@@ -15,16 +17,41 @@
 
 namespace sluice::host {
 
-/// Owns a child process: whoever lets go of it has killed and reaped it.
+/// How a Child learns that its process has ended. For tests: nobody can make a process that SIGKILL does not end.
+struct ChildWatch {
+    std::function<pid_t(pid_t, int*)> wait;          ///< as waitpid with WNOHANG; empty: that itself
+    std::uint64_t after_kill_ns = 5'000'000'000ULL;  ///< what SIGKILL gets to be obeyed
+};
+
+/// How a process ended, if it did.
+struct ChildEnd {
+    enum class Kind : std::uint8_t {
+        Reaped,
+        Unknown,  ///< somebody else of this process has reaped it
+        Stuck     ///< SIGKILL has not ended it in time: it sits in a driver in the kernel
+    };
+    Kind kind = Kind::Unknown;
+    int status = 0;                   ///< of waitpid, when Reaped
+    std::uint64_t after_kill_ns = 0;  ///< that were waited for it in vain, when Stuck
+
+    /// It ended with exit code 0.
+    [[nodiscard]] bool clean() const;
+    /// "was killed by signal 9 (SIGKILL)".
+    [[nodiscard]] std::string text() const;
+};
+
+/// Owns a child process: whoever lets go of it has killed and reaped it, or left it to a thread that does once the
+/// kernel lets it go. The kernel ends it with the thread that has started it (sluice/isolate/server.hpp, endWithHost),
+/// so that thread must last as long as the process.
 class Child {
   public:
-    Child() = default;
+    explicit Child(ChildWatch watch = {}) : watch_(std::move(watch)) {}
     Child(const Child&) = delete;
     Child& operator=(const Child&) = delete;
     ~Child();
 
     /// Starts `program --parent PID argument` with `channel` as descriptor 3 and no other but standard input and error;
-    /// what it prints goes to this process's standard error.
+    /// what it prints goes to this process's standard error. What of those this process lacks is /dev/null there.
     [[nodiscard]] Status start(const std::filesystem::path& program, const std::string& argument,
                                const isolate::Channel& channel);
     [[nodiscard]] pid_t pid() const { return pid_; }
@@ -32,11 +59,14 @@ class Child {
     [[nodiscard]] int endFd() const { return pidfd_.get(); }
     /// Any thread.
     void kill();
-    /// Gives it `grace_ns` to end by itself, then kills it, and says how it ended: "was killed by signal 9 (SIGKILL)".
-    /// `clean`: it ended with exit code 0.
-    [[nodiscard]] std::string reap(std::uint64_t grace_ns, bool& clean);
+    /// Gives it `grace_ns` to end by itself, then kills it, and says how it ended. Takes no longer than that and
+    /// ChildWatch::after_kill_ns, and asks for no memory.
+    [[nodiscard]] ChildEnd reap(std::uint64_t grace_ns);
 
   private:
+    [[nodiscard]] bool waited(ChildEnd& end);
+
+    ChildWatch watch_;
     pid_t pid_ = -1;
     UniqueFd pidfd_;
     std::mutex mutex_;  ///< between kill and reap: a reaped number may be another process's

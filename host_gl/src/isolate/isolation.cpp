@@ -123,13 +123,18 @@ Isolation::~Isolation() {
 }
 
 Result<std::unique_ptr<RendererProcess>> Isolation::process() {
-    if (waiting_) {
-        return std::exchange(waiting_, nullptr);
+    std::unique_ptr<RendererProcess> waited;
+    IsolationConfig config;
+    {
+        const std::lock_guard lock(mutex_);
+        waited = std::exchange(waiting_, nullptr);
+        if (waited && waited->alive()) {
+            return waited;
+        }
+        config = config_;
+        config_.fault.reset();  // one fault is one process's: the renderer that takes its place lives
     }
-    // One fault is one process's: the renderer that takes its place lives.
-    const isolate::Hello hello = helloFor(config_);
-    config_.fault.reset();
-    return RendererProcess::start(config_, hello);
+    return RendererProcess::start(config, helloFor(config));
 }
 
 }  // namespace sluice::host

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "isolate/renderer_process.hpp"
@@ -23,12 +24,13 @@ class Isolation {
     ~Isolation();
 
     [[nodiscard]] const SluiceRendererApi& table() const { return table_; }
-    /// The process that waits, or a new one.
+    /// The process that waits, if it still lives, or a new one. Any thread.
     [[nodiscard]] Result<std::unique_ptr<RendererProcess>> process();
 
   private:
     explicit Isolation(IsolationConfig config) : config_(std::move(config)) {}
 
+    std::mutex mutex_;  ///< of the two that follow
     IsolationConfig config_;
     std::unique_ptr<RendererProcess> waiting_;
     isolate::Welcome plugin_;

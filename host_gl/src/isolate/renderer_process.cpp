@@ -4,32 +4,39 @@
 #include <fmt/format.h>
 #include <poll.h>
 
-#include <array>
+#include <algorithm>
 #include <chrono>
-#include <filesystem>
 #include <system_error>
 #include <utility>
 #include <variant>
 
 #include "sluice/abi_sizes.hpp"
+#include "sluice/trace.hpp"
 
 namespace sluice::host {
 
 namespace {
 
-constexpr const char* kRemedy = "destroy the renderer and create it again";
-/// For a process that has closed its channel, or was asked to end: to run its exit handlers.
-constexpr std::uint64_t kGraceNs = 10'000'000'000;
+constexpr std::uint64_t kShortestCallNs = 1'000'000;
+constexpr std::uint64_t kLongestCallNs = 86'400'000'000'000;
+/// A process that ends closes its channel's two directions one right after the other.
+constexpr std::uint64_t kClosingNs = 1'000'000'000;
 
 double seconds(std::uint64_t nanoseconds) {
     return static_cast<double>(nanoseconds) * 1e-9;
 }
 
+std::uint64_t until(std::uint64_t deadline_ns) {
+    return deadline_ns - std::min(deadline_ns, monotonicNanoseconds());
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RendererProcess>> RendererProcess::start(const IsolationConfig& config,
-                                                                const isolate::Hello& hello) {
-    std::unique_ptr<RendererProcess> process(new RendererProcess(config, hello));
+                                                                const isolate::Hello& hello, ChildWatch watch) {
+    std::unique_ptr<RendererProcess> process(new RendererProcess(config, hello, std::move(watch)));
+    std::uint64_t& timeout = process->config_.call_timeout_ns;
+    timeout = std::clamp(timeout, kShortestCallNs, kLongestCallNs);
     Result<std::unique_ptr<isolate::SharedTimeline>> timeline = isolate::SharedTimeline::create();
     if (!timeline) {
         return timeline.error();
@@ -41,18 +48,22 @@ Result<std::unique_ptr<RendererProcess>> RendererProcess::start(const IsolationC
             return ends.error();
         }
         process->channel_ = std::move(ends.value().first);
-        // dlopen searches the library path for a name without a slash.
-        std::error_code ignored;
-        const std::string plugin = std::filesystem::absolute(config.plugin, ignored).string();
-        if (Status started = process->child_.start(config.program, plugin, ends.value().second); !started) {
+        // The kernel ends the process with the thread that starts it, and this thread may be the first to end.
+        try {
+            process->listener_ =
+                std::thread([raw = process.get(), there = &ends.value().second] { raw->live(*there); });
+        } catch (const std::system_error& failed) {
+            return Error{SLUICE_ERROR_OUT_OF_MEMORY, "thread of the renderer process", failed.what(), ""};
+        }
+        if (Status started = process->spawned(); !started) {
             return started.error();
         }
     }
-    process->listener_ = std::thread([raw = process.get()] { raw->listen(); });
+    const std::uint64_t deadline = monotonicNanoseconds() + timeout;
     const int page = process->timeline_->fd();
-    Status sent = process->channel_.send(hello, 0, std::span(&page, 1), config.call_timeout_ns);
+    Status sent = process->channel_.send(hello, 0, std::span(&page, 1), timeout);
     // A process that ended before it listened tells more by its end than by the failed send.
-    Result<isolate::Received> answer = process->nextMessage();
+    Result<isolate::Received> answer = process->nextMessage(deadline);
     if (!answer) {
         Error error = answer.error();
         error.thing = fmt::format("renderer plugin '{}'", config.plugin.string());
@@ -65,10 +76,16 @@ Result<std::unique_ptr<RendererProcess>> RendererProcess::start(const IsolationC
     }
     const auto* welcome = std::get_if<isolate::Welcome>(&answer.value().message);
     if (welcome == nullptr || welcome->abi_version >> 16U != SLUICE_ABI_MAJOR) {
-        return Error{SLUICE_ERROR_ABI_MISMATCH, "renderer process", "it does not serve this ABI", kRemedy};
+        return Error{SLUICE_ERROR_ABI_MISMATCH, "renderer process", "it does not serve this ABI", kRecreate};
     }
     process->welcome_ = *welcome;
     return process;
+}
+
+Status RendererProcess::spawned() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return spawned_.has_value(); });
+    return *spawned_;
 }
 
 RendererProcess::~RendererProcess() {
@@ -82,100 +99,20 @@ RendererProcess::~RendererProcess() {
     }
 }
 
+bool RendererProcess::alive() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (end_ || !blame_.empty()) {
+            return false;
+        }
+    }
+    pollfd ended{child_.endFd(), POLLIN, 0};
+    return ended.fd < 0 || ::poll(&ended, 1, 0) == 0;
+}
+
 void RendererProcess::passTo(const SluiceHostServices* services) {
     const std::lock_guard lock(services_mutex_);
     services_ = services != nullptr ? std::optional(readAbiStruct(*services)) : std::nullopt;
-}
-
-bool RendererProcess::log(std::int32_t level, const std::string& text) {
-    const std::lock_guard lock(services_mutex_);
-    if (!services_ || services_->log == nullptr) {
-        return false;
-    }
-    services_->log(services_->user, level, text.c_str());
-    return true;
-}
-
-void RendererProcess::listen() {
-    for (;;) {
-        std::array<pollfd, 2> watched{{{channel_.fd(), POLLIN, 0}, {child_.endFd(), POLLIN, 0}}};
-        static_cast<void>(::poll(watched.data(), watched.size(), -1));
-        Result<isolate::Received> received = channel_.receive(0);
-        if (received) {
-            hear(std::move(received).value());
-            continue;
-        }
-        // What was sent before the end has been heard by now.
-        if (received.error().code == SLUICE_TIMEOUT) {
-            if (watched[1].revents != 0) {
-                break;
-            }
-            continue;
-        }
-        if (received.error().code != SLUICE_ERROR_DEVICE_LOST) {
-            condemn("sent what is no message and was killed: " + received.error().message());
-        }
-        break;
-    }
-    noteEnd();
-}
-
-void RendererProcess::hear(isolate::Received received) {
-    if (const auto* line = std::get_if<isolate::Log>(&received.message)) {
-        static_cast<void>(log(line->level, line->text));
-        return;
-    }
-    if (const auto* trace = std::get_if<isolate::TraceEvents>(&received.message)) {
-        const std::lock_guard lock(services_mutex_);
-        if (!services_ || services_->trace == nullptr) {
-            return;
-        }
-        for (const isolate::TracePoint& point : trace->events) {
-            auto event = sized<SluiceTraceEvent>();
-            event.kind = point.kind;
-            event.track = point.track;
-            event.direction = point.direction;
-            event.begin_ns = point.begin_ns;
-            event.duration_ns = point.duration_ns;
-            event.frame = point.frame;
-            event.value = point.value;
-            event.bytes = point.bytes;
-            event.name = point.name.data();
-            services_->trace(services_->user, &event);
-        }
-        return;
-    }
-    {
-        const std::lock_guard lock(mutex_);
-        mail_.push_back(std::move(received));
-    }
-    changed_.notify_all();
-}
-
-void RendererProcess::noteEnd() {
-    bool clean = false;
-    const std::string how = child_.reap(kGraceNs, clean);
-    Error end{SLUICE_ERROR_DEVICE_LOST, fmt::format("renderer process {}", child_.pid()), {}, kRemedy};
-    bool asked = false;
-    {
-        const std::lock_guard lock(mutex_);
-        asked = ending_;
-        end.detail = !blame_.empty() ? blame_
-                                     : fmt::format("{} {} {}", how,
-                                                   doing_.starts_with("after") ? "between calls," : "during", doing_);
-    }
-    if (!asked) {
-        // Not left to whoever calls next: many calls can say no more than a code.
-        told_ = log(SLUICE_LOG_ERROR, end.message());
-    } else if (!clean) {
-        static_cast<void>(log(SLUICE_LOG_WARNING, fmt::format("{} {} when it was to end", end.thing, how)));
-    }
-    {
-        const std::lock_guard lock(mutex_);
-        end_ = std::move(end);
-    }
-    timeline_->peerDied();
-    changed_.notify_all();
 }
 
 void RendererProcess::condemn(std::string blame) {
@@ -186,6 +123,7 @@ void RendererProcess::condemn(std::string blame) {
         }
     }
     child_.kill();
+    channel_.shutdown();  // SIGKILL may not end it, and the listener shall hear of it all the same
 }
 
 Error RendererProcess::gone() {
@@ -199,9 +137,9 @@ Error RendererProcess::gone() {
     return error;
 }
 
-Result<isolate::Received> RendererProcess::nextMessage() {
+Result<isolate::Received> RendererProcess::nextMessage(std::uint64_t deadline_ns) {
     std::unique_lock lock(mutex_);
-    const bool came = changed_.wait_for(lock, std::chrono::nanoseconds(config_.call_timeout_ns),
+    const bool came = changed_.wait_for(lock, std::chrono::nanoseconds(until(deadline_ns)),
                                         [this] { return !mail_.empty() || end_.has_value(); });
     if (!came) {
         const std::string doing = doing_;
@@ -216,7 +154,24 @@ Result<isolate::Received> RendererProcess::nextMessage() {
     }
     isolate::Received received = std::move(mail_.front());
     mail_.pop_front();
+    lines_ -= std::holds_alternative<isolate::Line>(received.message) ? 1U : 0U;
     return received;
+}
+
+Status RendererProcess::deliver(const isolate::Message& message, std::uint64_t number, std::span<const int> fds,
+                                const std::string& what, std::uint64_t deadline_ns) {
+    const Status sent = channel_.send(message, number, fds, until(deadline_ns));
+    if (sent) {
+        return {};
+    }
+    if (sent.error().code == SLUICE_TIMEOUT) {
+        condemn(fmt::format("did not take {} within {:.3f} s and was killed", what, seconds(config_.call_timeout_ns)));
+    } else if (sent.error().code != SLUICE_ERROR_DEVICE_LOST) {
+        return sent;
+    } else if (!channel_.closedThere(kClosingNs)) {
+        condemn(fmt::format("would not take {}, though it lives, and was killed", what));
+    }
+    return gone();
 }
 
 Result<Reply> RendererProcess::call(const isolate::Message& message, std::span<const int> fds, std::string doing,
@@ -229,23 +184,20 @@ Result<Reply> RendererProcess::call(const isolate::Message& message, std::span<c
         }
     }
     const std::uint64_t number = ++calls_;
-    if (const Status sent = channel_.send(message, number, fds, config_.call_timeout_ns); !sent) {
-        if (sent.error().code == SLUICE_TIMEOUT) {
-            condemn(
-                fmt::format("did not take {} within {:.3f} s and was killed", doing, seconds(config_.call_timeout_ns)));
-        } else if (sent.error().code != SLUICE_ERROR_DEVICE_LOST) {
-            return sent.error();
-        }
-        return gone();
+    std::uint64_t deadline = monotonicNanoseconds() + config_.call_timeout_ns;
+    if (Status sent = deliver(message, number, fds, doing, deadline); !sent) {
+        return sent.error();
     }
-    for (;;) {
-        Result<isolate::Received> received = nextMessage();
+    for (std::uint32_t served = 0; served <= kMostCallbacks; ++served) {
+        Result<isolate::Received> received = nextMessage(deadline);
         if (!received) {
             return received.error();
         }
         isolate::Received& got = received.value();
+        const std::uint64_t begin = monotonicNanoseconds();
         if (const auto* line = std::get_if<isolate::Line>(&got.message); line != nullptr && back.sink != nullptr) {
             back.sink(back.sink_user, line->text.c_str());
+            deadline += monotonicNanoseconds() - begin;
             continue;
         }
         if (got.call != number) {
@@ -258,13 +210,17 @@ Result<Reply> RendererProcess::call(const isolate::Message& message, std::span<c
             return Reply{std::move(*returned), std::move(got.fds)};
         }
         const isolate::Answer answer = answerTo(got, back);
-        if (const Status sent = channel_.send(answer, number, {}, config_.call_timeout_ns); !sent) {
-            if (sent.error().code != SLUICE_ERROR_DEVICE_LOST) {  // it lives, and nothing else would end it
-                condemn(fmt::format("did not take its answer during {} and was killed", doing));
+        deadline += monotonicNanoseconds() - begin;
+        if (Status sent = deliver(answer, number, {}, "its answer during " + doing, deadline); !sent) {
+            if (sent.error().code != SLUICE_ERROR_DEVICE_LOST) {  // it waits for that answer, and nothing would end it
+                condemn(fmt::format("could not be answered during {} and was killed: {}", doing, sent.error().detail));
+                return gone();
             }
-            return gone();
+            return sent.error();
         }
     }
+    condemn(fmt::format("called back more than {} times during {} and was killed", kMostCallbacks, doing));
+    return gone();
 }
 
 isolate::Answer RendererProcess::answerTo(isolate::Received& asked, const CallBacks& back) const {

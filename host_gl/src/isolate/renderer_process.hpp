@@ -31,29 +31,41 @@ struct CallBacks {
     void* sink_user = nullptr;
 };
 
+/// More callbacks and lines than these during one call, or lines waiting to be read, and the process is ended. A start
+/// has a hundred callbacks at most, an explanation thirty lines.
+inline constexpr std::uint32_t kMostCallbacks = 4096;
+inline constexpr std::uint32_t kMostLines = 1024;
+
+/// What the holder of a renderer that is gone can do.
+inline constexpr const char* kRecreate = "destroy the renderer and create it again";
+
 struct Reply {
     isolate::Returned returned;
     std::vector<UniqueFd> fds;
 };
 
-/// One process and a thread that listens to it: log lines and trace events are passed on as they come, the end of the
-/// process is noticed whatever anybody waits for. Any thread; calls come one after another.
+/// One process and a thread that starts it and listens to it: log lines and trace events are passed on as they come,
+/// the end of the process is noticed whatever anybody waits for. Any thread; calls come one after another.
 class RendererProcess {
   public:
+    /// `watch` is for tests.
     [[nodiscard]] static Result<std::unique_ptr<RendererProcess>> start(const IsolationConfig& config,
-                                                                        const isolate::Hello& hello);
+                                                                        const isolate::Hello& hello,
+                                                                        ChildWatch watch = {});
     RendererProcess(const RendererProcess&) = delete;
     RendererProcess& operator=(const RendererProcess&) = delete;
-    /// Ends it; kills it if it does not end by itself.
+    /// Ends it; kills it if it does not end by itself. A process that cannot be killed is left behind after a while.
     ~RendererProcess();
 
     [[nodiscard]] const isolate::Hello& hello() const { return hello_; }
     [[nodiscard]] const isolate::Welcome& welcome() const { return welcome_; }
     [[nodiscard]] isolate::SharedTimeline& timeline() { return *timeline_; }
+    /// False once it has ended.
+    [[nodiscard]] bool alive();
     /// Where log lines and trace events go from now on; nullptr: nowhere.
     void passTo(const SluiceHostServices* services);
     /// `doing` is what is said if the process ends meanwhile: "submit_frame of frame 3". Without an answer within the
-    /// deadline the process is killed.
+    /// deadline the process is killed; the time that `back` takes here does not count.
     [[nodiscard]] Result<Reply> call(const isolate::Message& message, std::span<const int> fds, std::string doing,
                                      const CallBacks& back);
     /// The counters are broken, or the renderer's side has failed: nothing it says is of use any more.
@@ -62,14 +74,24 @@ class RendererProcess {
     [[nodiscard]] Error gone();
 
   private:
-    RendererProcess(IsolationConfig config, const isolate::Hello& hello) : config_(std::move(config)), hello_(hello) {}
+    RendererProcess(IsolationConfig config, const isolate::Hello& hello, ChildWatch watch)
+        : config_(std::move(config)), hello_(hello), child_(std::move(watch)) {}
+    // What the thread does, in renderer_listener.cpp.
+    void live(const isolate::Channel& there);
+    [[nodiscard]] Status spawn(const isolate::Channel& there);
     void listen();
     void hear(isolate::Received received);
-    void noteEnd();
-    [[nodiscard]] Result<isolate::Received> nextMessage();
-    [[nodiscard]] isolate::Answer answerTo(isolate::Received& asked, const CallBacks& back) const;
+    void noteEnd(const char* misfortune);
+    void tellEnd(const ChildEnd& ended);
     /// False: nobody listens.
     [[nodiscard]] bool log(std::int32_t level, const std::string& text);
+
+    [[nodiscard]] Status spawned();
+    [[nodiscard]] Result<isolate::Received> nextMessage(std::uint64_t deadline_ns);
+    /// Sends it. A process that does not take it is ended; SLUICE_ERROR_DEVICE_LOST says that it is gone.
+    [[nodiscard]] Status deliver(const isolate::Message& message, std::uint64_t number, std::span<const int> fds,
+                                 const std::string& what, std::uint64_t deadline_ns);
+    [[nodiscard]] isolate::Answer answerTo(isolate::Received& asked, const CallBacks& back) const;
 
     IsolationConfig config_;
     isolate::Hello hello_;
@@ -86,10 +108,13 @@ class RendererProcess {
 
     std::mutex mutex_;  ///< of what follows
     std::condition_variable changed_;
+    std::optional<Status> spawned_;
     std::deque<isolate::Received> mail_;
+    std::uint32_t lines_ = 0;  ///< in mail_; of all else one at most
     std::string doing_ = "its start";
     std::string blame_;         ///< why this process has ended it
     std::optional<Error> end_;  ///< it is gone
+    Error last_words_;          ///< for end_ when there is no memory for others
     bool ending_ = false;       ///< it was asked to end
     std::thread listener_;
 };

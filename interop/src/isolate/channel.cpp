@@ -204,6 +204,11 @@ Result<Packet> Channel::receiveBytes(std::uint64_t timeout_ns) const {
     }
 }
 
+bool Channel::closedThere(std::uint64_t timeout_ns) const {
+    const Result<bool> hung_up = ready(socket_.get(), 0, deadlineAfter(timeout_ns));
+    return !hung_up || hung_up.value();
+}
+
 void Channel::shutdown() const {
     (void)::shutdown(socket_.get(), SHUT_RDWR);
 }

@@ -274,6 +274,9 @@ SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* parti
     if (breaks(Entry::SetParticles, error)) {
         return SLUICE_ERROR_INTERNAL;
     }
+    if (particles->count != 0 && particles->count == sluice_shim_control.refuses_particles_of) {
+        return refuse(error, SLUICE_ERROR_UNSUPPORTED, "the shim takes no such particles");
+    }
     sluice_shim_control.particles = particles->count;
     sluice_shim_control.first_coordinate = particles->position[0];
     return real->set_particles(renderer, particles, error);
@@ -282,6 +285,9 @@ SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* parti
 SluiceResult setEnvironment(SluiceRenderer* renderer, const SluiceEnvironment* environment, SluiceError* error) {
     if (breaks(Entry::SetEnvironment, error)) {
         return SLUICE_ERROR_INTERNAL;
+    }
+    if (environment != nullptr && environment->width == sluice_shim_control.refuses_environment_of) {
+        return refuse(error, SLUICE_ERROR_UNSUPPORTED, "the shim takes no such environment");
     }
     sluice_shim_control.environment_width = environment != nullptr ? environment->width : 0;
     return real->set_environment(renderer, environment, error);

@@ -57,8 +57,10 @@ struct ShimControl {
     std::uint64_t stall_value = 0;                     ///< timeline_wait for this value does not see it ...
     std::uint64_t stall_ms = 0;                        ///< ... until so long after the first call
     std::uint64_t time_out_from = 0, time_out_to = 0;  ///< timeline_wait for these values says that time is up
-    std::uint32_t fail_resizes = 0;  ///< so many calls of resize fail in the middle: there are no images
-    std::uint64_t hang_frame = 0;    ///< submit_frame of this frame returns when `release` says so
+    std::uint32_t fail_resizes = 0;            ///< so many calls of resize fail in the middle: there are no images
+    std::uint32_t refuses_particles_of = 0;    ///< set_particles of so many is refused as too many
+    std::uint32_t refuses_environment_of = 0;  ///< set_environment of a map so wide likewise
+    std::uint64_t hang_frame = 0;              ///< submit_frame of this frame returns when `release` says so
     std::atomic<bool> release{false};
     Entry broken{};        ///< this function fails, with a message that has no end
     ImageLie image_lie{};  ///< of every image

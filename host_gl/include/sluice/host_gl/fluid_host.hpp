@@ -64,7 +64,8 @@ struct FrameInput {
 /// A renderer that has become useless (its device is lost, a resize found no memory, deadlines pass in a row ...) is
 /// destroyed and created again by submit(), as FluidHostConfig::recovery says; that submit() takes as long as create()
 /// does. Until then submit() fails, at once, and the frames are the host's alone. The new renderer gets the particles
-/// and the environment that were set last, of which the FluidHost keeps a copy. What happens is logged, a line each.
+/// and the environment that were set last, of which the FluidHost keeps a copy; what it refuses of them is dropped.
+/// What happens is logged, a line each.
 ///
 /// A GL context that is lost (contextLoss()) ends the FluidHost: every call says so, and nothing more is asked of GL
 /// but to free its objects. Make a context, and a FluidHost in it.
@@ -93,6 +94,8 @@ class FluidHost {
     [[nodiscard]] virtual std::uint32_t texture(SluiceImageRole role) const = 0;
     /// Renderers created so far: more than 1 when one has been lost.
     [[nodiscard]] virtual std::uint32_t renderers() const = 0;
+    /// The renderer is useless, and the log has been told why and what comes next.
+    [[nodiscard]] virtual bool recovering() const = 0;
 };
 
 /// Host services for calls that need no FluidHost (describe, probe_format); valid while the object lives and its GL

@@ -13,7 +13,8 @@ namespace sluice::host {
 struct IsolationConfig {
     std::filesystem::path program;  ///< sluice-renderer
     std::filesystem::path plugin;
-    /// Longest silence of the other process during a call; then it is killed and the call says so.
+    /// Longest time that a call may take in the other process, what it has this one do for it apart; then it is killed
+    /// and the call says so. 1 ms to 24 h; what lies outside is taken as the nearer of the two.
     std::uint64_t call_timeout_ns = 60'000'000'000ULL;
     std::optional<FaultPlan> fault;  ///< for tests; one of those that are ofProcess()
 };

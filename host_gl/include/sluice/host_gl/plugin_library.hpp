@@ -20,7 +20,8 @@ class PluginLibrary {
     /// the entry symbol, serves another ABI major, or returns an incomplete table.
     [[nodiscard]] static Result<PluginLibrary> load(const std::filesystem::path& path);
     /// The plugin in processes of its own, one for each renderer; nothing of it is loaded here. Its table behaves as
-    /// the plugin's would, and says SLUICE_ERROR_DEVICE_LOST once the process has died or was killed because it hung.
+    /// the plugin's would, on any number of threads, and says SLUICE_ERROR_DEVICE_LOST once the process has died or was
+    /// killed because it hung.
     [[nodiscard]] static Result<PluginLibrary> isolated(const IsolationConfig& config);
     PluginLibrary(PluginLibrary&&) noexcept;
     PluginLibrary& operator=(PluginLibrary&&) noexcept;

@@ -52,6 +52,9 @@ class Channel {
     [[nodiscard]] Result<Packet> receiveBytes(std::uint64_t timeout_ns) const;
     /// The other end's receive ends, and so does any here. The descriptor stays open.
     void shutdown() const;
+    /// After a send that found the other end closed: whether it is closed in both directions, as it is when its process
+    /// has ended. Waits for that, but not longer than `timeout_ns`. False: it is open and receives no more.
+    [[nodiscard]] bool closedThere(std::uint64_t timeout_ns) const;
     [[nodiscard]] int fd() const { return socket_.get(); }
 
   private:
