@@ -6,6 +6,7 @@
 #include <set>
 #include <system_error>
 
+#include "app/body_files.hpp"
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
 #include "report/progress.hpp"
@@ -110,6 +111,9 @@ Status checkInputs(RenderInputs& inputs, bool progress) {
         Result<particles::ParticleSet> set = loadParticles(inputs.scene.particles, path.value());
         if (!set) {
             return set.error();
+        }
+        if (const auto bodies = readBodies(inputs.scene, path.value()); !bodies) {
+            return bodies.error();
         }
         if (!inputs.first) {
             warnOfRadius(inputs.scene_file, inputs.scene.particles, set.value(), path.value());

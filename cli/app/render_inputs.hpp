@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <vector>
 
 #include "app/options.hpp"
 #include "image/environment.hpp"
@@ -27,6 +28,7 @@ struct RenderInputs {
     std::optional<Environment> environment;
     /// The particles of the first frame, kept from the check so that they are not read twice; the frame takes them.
     std::optional<LoadedParticles> first;
+    std::vector<host::MovingBody> bodies;  ///< of the frame in hand
 };
 
 /// The scene with the command line's overrides. Reads the scene file only. A scene without particles is an error.

@@ -9,6 +9,7 @@
 #include <string>
 #include <utility>
 
+#include "app/body_files.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
@@ -43,6 +44,11 @@ Status updateParticles(Run& run, std::int64_t frame) {
     if (path.value() == run.particle_file) {
         return {};
     }
+    Result<std::vector<host::MovingBody>> bodies = readBodies(run.inputs.scene, path.value());
+    if (!bodies) {
+        return bodies.error();
+    }
+    run.inputs.bodies = std::move(bodies).value();
     std::optional<LoadedParticles> first = std::exchange(run.inputs.first, std::nullopt);
     const Result<particles::ParticleSet> set = first && first->path == path.value()
                                                    ? Result<particles::ParticleSet>{std::move(first->set)}

@@ -194,7 +194,7 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
     const std::uint64_t draw_began = monotonicNanoseconds();
     result.draw_ms = timed([&] {
         session.screen.bind();
-        session.engine.draw(camera, inputs.scene.sky);
+        session.engine.draw(camera, inputs.scene.sky, inputs.bodies);
     });
     if (layers) {
         result.layers.host_colour = host::readColour(session.screen, session.trace.get());

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "app/body_files.hpp"
 #include "app/commands.hpp"
 #include "app/file_roles.hpp"
 #include "app/interrupt.hpp"
@@ -22,6 +23,7 @@ namespace {
 struct Run {
     const SimulateOptions& options;
     const scene::Simulation& settings;
+    const simulator::Setup& setup;
     scene::FrameRange frames;
     simulator::Simulator simulator;
     OutputFolders& folders;
@@ -92,6 +94,9 @@ Status write(Run& run, std::int64_t frame, simulator::Particles&& particles) {
     Status status = particles::save(path.value(), set);
     if (status) {
         run.summary.files.push_back(path.value().string());
+        if (!run.setup.bodies.empty()) {
+            status = writeBodies(path.value(), run.setup, run.simulator.bodies());
+        }
     }
     return status;
 }
@@ -175,7 +180,7 @@ int simulate(const SimulateOptions& options) {
         logError(made.error());
         return made.error().code == SLUICE_ERROR_INVALID_ARGUMENT ? kExitBadInput : kExitNoFluid;
     }
-    Run run{options, settings, frames, std::move(made).value(), folders, {}};
+    Run run{options, settings, setup, frames, std::move(made).value(), folders, {}};
     run.summary.scene = options.scene;
     run.summary.device = run.simulator.device();
     run.summary.first = frames.first;

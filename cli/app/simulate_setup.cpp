@@ -36,6 +36,7 @@ void addEngine(simulator::Setup& setup, const host::EngineScene& engine) {
     }
 }
 
+/// What comes, goes and moves.
 void addSources(simulator::Setup& setup, const scene::Simulation& s) {
     for (const scene::Emitter& e : s.emitters) {
         setup.emitters.push_back({e.shape == scene::kEmitterDisc, e.centre, e.direction, e.width, e.height, e.speed,
@@ -50,6 +51,17 @@ void addSources(simulator::Setup& setup, const scene::Simulation& s) {
                           : f.kind == scene::kFieldPoint ? Kind::Point
                                                          : Kind::Vortex;
         setup.fields.push_back({kind, f.centre, f.axis, f.strength, f.radius});
+    }
+    for (const scene::MovingBody& b : s.bodies) {
+        using Shape = simulator::Body::Shape;
+        const Shape shape = b.shape == scene::kBodySphere    ? Shape::Sphere
+                            : b.shape == scene::kBodyCapsule ? Shape::Capsule
+                                                             : Shape::Box;
+        simulator::Body body{shape, b.centre, b.half, b.turn_degrees, b.density, b.velocity, b.spin, {}};
+        for (const scene::PathPoint& point : b.path) {
+            body.path.push_back({point.time, point.centre, point.turn_degrees});
+        }
+        setup.bodies.push_back(std::move(body));
     }
     setup.most_particles = static_cast<std::uint32_t>(kMostSimulated);
 }

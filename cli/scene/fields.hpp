@@ -24,6 +24,8 @@ inline constexpr std::array<Choice, 5> kViews{{{"fluid", SLUICE_VIEW_FLUID},
 
 inline constexpr std::array<Choice, 2> kEmitterShapes{{{"disc", kEmitterDisc}, {"box", kEmitterBox}}};
 inline constexpr std::array<Choice, 2> kDrainShapes{{{"sphere", kDrainSphere}, {"box", kDrainBox}}};
+inline constexpr std::array<Choice, 3> kBodyShapes{
+    {{"sphere", kBodySphere}, {"capsule", kBodyCapsule}, {"box", kBodyBox}}};
 inline constexpr std::array<Choice, 3> kFieldKinds{
     {{"wind", kFieldWind}, {"point", kFieldPoint}, {"vortex", kFieldVortex}}};
 
@@ -130,6 +132,24 @@ void visitSources(Visitor& v, Simulation& s) {
 }
 
 template <typename Visitor>
+void visitBodies(Visitor& v, Simulation& s) {
+    v.list("bodies", s.bodies, [](auto& o, MovingBody& body) {
+        o.choice("shape", body.shape, kBodyShapes);
+        o.numbers("centre", body.centre, kAnyLength);
+        o.numbers("half", body.half, kPositiveLength);
+        o.number("turn_degrees", body.turn_degrees, kDegrees);
+        o.number("density", body.density, Range{0.001, 1000.0});
+        o.numbers("velocity", body.velocity, Range{-1.0e4, 1.0e4});
+        o.numbers("spin", body.spin, Range{-1.0e4, 1.0e4});
+        o.list("path", body.path, [](auto& p, PathPoint& point) {
+            p.number("time", point.time, Range{0.0, 1.0e6});
+            p.numbers("centre", point.centre, kAnyLength);
+            p.number("turn_degrees", point.turn_degrees, kDegrees);
+        });
+    });
+}
+
+template <typename Visitor>
 void visitSimulation(Visitor& v, Simulation& s) {
     v.number("radius", s.radius, Range{1.0e-4, 100.0});
     v.object("domain", [&s](auto& d) {
@@ -171,6 +191,7 @@ void visitSimulation(Visitor& v, Simulation& s) {
         o.numbers("through", plane.through, kAnyLength);
     });
     visitSources(v, s);
+    visitBodies(v, s);
 }
 
 template <typename Visitor>

@@ -127,9 +127,31 @@ void checkSources(ObjectReader& reader, const Simulation& s) {
     }
 }
 
+void checkBodies(ObjectReader& reader, const Simulation& s) {
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+        const std::string key = fmt::format("simulation/bodies/{}", i);
+        const Vec3& half = s.bodies[i].half;
+        if (s.bodies[i].shape == kBodySphere && (half[0] != half[1] || half[1] != half[2])) {
+            reader.fail(key + "/half", "the radius of the sphere, three times", shown(half));
+        }
+        if (s.bodies[i].shape == kBodyCapsule && (half[0] != half[2] || half[1] < half[0])) {
+            reader.fail(key + "/half", "the radius of the capsule, its half length with the caps, its radius",
+                        shown(half));
+        }
+        for (std::size_t k = 1; k < s.bodies[i].path.size(); ++k) {
+            if (s.bodies[i].path[k].time <= s.bodies[i].path[k - 1].time) {
+                reader.fail(fmt::format("{}/path/{}/time", key, k),
+                            fmt::format("a time after {}", s.bodies[i].path[k - 1].time),
+                            fmt::format("{}", s.bodies[i].path[k].time));
+            }
+        }
+    }
+}
+
 void checkSimulation(ObjectReader& reader, const Simulation& s) {
     checkBox(reader, "simulation/domain", s.low, s.high);
     checkSources(reader, s);
+    checkBodies(reader, s);
     for (std::size_t i = 0; i < s.fluid.size(); ++i) {
         const std::string key = fmt::format("simulation/fluid/{}", i);
         checkBox(reader, key, s.fluid[i].low, s.fluid[i].high);

@@ -46,6 +46,21 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
                                                                        : vk::ForceKind::Vortex;
         s.sources.fields.push_back({kind, f.centre, f.axis, f.strength, f.radius});
     }
+    for (const Body& b : setup.bodies) {
+        vk::Body body{b.shape == Body::Shape::Sphere    ? vk::SolidKind::Sphere
+                      : b.shape == Body::Shape::Capsule ? vk::SolidKind::Capsule
+                                                        : vk::SolidKind::Box,
+                      b.centre,
+                      b.half,
+                      b.turn_degrees,
+                      b.density,
+                      b.velocity,
+                      b.spin};
+        for (const PathPoint& point : b.path) {
+            body.path.push_back({point.time, point.centre, point.turn_degrees});
+        }
+        s.bodies.push_back(std::move(body));
+    }
     s.sources.most_particles = setup.most_particles;
     return s;
 }
@@ -64,6 +79,9 @@ std::vector<double> clearances(const Setup& setup, const std::vector<float>& pos
         }
         for (const vk::Solid& solid : settings.solids) {
             nearest = std::min(nearest, vk::distanceTo(solid, x));
+        }
+        for (const vk::Body& body : settings.bodies) {
+            nearest = std::min(nearest, vk::distanceTo(vk::solidOf(body, vk::startOf(body)), x));
         }
         all.push_back(nearest);
     }
@@ -131,6 +149,19 @@ Result<Particles> Simulator::read() const {
         return state.error();
     }
     return Particles{std::move(state.value().position), std::move(state.value().velocity)};
+}
+
+std::vector<BodyPose> Simulator::bodies() const {
+    std::vector<BodyPose> poses;
+    for (const vk::BodyState& state : state_->solver->bodies()) {
+        BodyPose pose{vk::narrow(state.centre),   {},
+                      vk::narrow(state.velocity), vk::narrow(state.spin),
+                      vk::narrow(state.force),    vk::narrow(state.torque)};
+        std::transform(state.turn.begin(), state.turn.end(), pose.turn.begin(),
+                       [](double part) { return static_cast<float>(part); });
+        poses.push_back(pose);
+    }
+    return poses;
 }
 
 std::string Simulator::device() const {

@@ -47,6 +47,25 @@ struct ForceField {
     float strength, radius;
 };
 
+struct PathPoint {
+    float time;
+    Vec3 centre;
+    float turn_degrees;
+};
+struct Body {
+    enum class Shape : std::uint8_t { Sphere, Capsule, Box } shape;
+    Vec3 centre, half;
+    float turn_degrees, density;
+    Vec3 velocity, spin;
+    std::vector<PathPoint> path;
+};
+/// A body after the last step; force and torque are the fluid's in it, N and N m.
+struct BodyPose {
+    Vec3 centre;
+    std::array<float, 4> turn;  ///< unit quaternion from its axes to the world's
+    Vec3 velocity, spin, force, torque;
+};
+
 /// docs/simulation.md has every number; metres and seconds.
 struct Setup {
     float radius = 0.02F;
@@ -60,6 +79,7 @@ struct Setup {
     std::vector<Emitter> emitters;
     std::vector<Drain> drains;
     std::vector<ForceField> fields;
+    std::vector<Body> bodies;
     std::uint32_t most_particles = 0;  ///< at which emitters stop
 };
 
@@ -79,8 +99,8 @@ struct Advance {
     std::uint64_t born = 0, blocked = 0, drained = 0;  ///< particles
 };
 
-/// Distance from each position (triples) to the nearest solid or face of the domain, metres; negative where no fluid
-/// may be.
+/// Distance from each position (triples) to the nearest solid, body or face of the domain, metres; negative where no
+/// fluid may be.
 [[nodiscard]] std::vector<double> clearances(const Setup& setup, const std::vector<float>& positions);
 
 /// The device and the solver on it. Errors of create: INVALID_ARGUMENT when the setup is wrong, else the device's.
@@ -95,6 +115,8 @@ class Simulator {
     /// On an error the particles are those of the last good step.
     [[nodiscard]] Result<Advance> advance(double seconds, double longest);
     [[nodiscard]] Result<Particles> read() const;
+    /// In the order of the setup.
+    [[nodiscard]] std::vector<BodyPose> bodies() const;
     [[nodiscard]] std::string device() const;
     [[nodiscard]] std::uint32_t validationMessages() const;
     /// Milliseconds of each pass so far.

@@ -46,7 +46,11 @@ TEST(SceneFile, EveryKeyIsRead) {
                                      "speed": 2, "rate": 0, "start": 0.5, "stop": 3}],
                        "drains": [{"shape": "sphere", "centre": [1, 0, 1], "half": [0.5, 0.5, 0.5]}],
                        "fields": [{"kind": "vortex", "centre": [0, 1, 0], "axis": [0, 1, 0], "strength": -4,
-                                   "radius": 2}]},
+                                   "radius": 2}],
+                       "bodies": [{"shape": "capsule", "centre": [0, 1, 0], "half": [0.1, 0.3, 0.1], "turn_degrees": 5,
+                                   "density": 0.5, "velocity": [1, 0, 0], "spin": [0, 1, 0],
+                                   "path": [{"time": 0, "centre": [0, 1, 0], "turn_degrees": 0},
+                                            {"time": 2, "centre": [1, 1, 0], "turn_degrees": 90}]}]},
         "frames": [3, 8], "size": [64, 48]})",
                                           "s.json");
     ASSERT_TRUE(read.ok()) << read.error().message();
@@ -88,6 +92,10 @@ TEST(SceneFile, EveryKeyIsRead) {
     ASSERT_EQ(s.simulation.fields.size(), 1U);
     EXPECT_EQ(s.simulation.fields[0].kind, kFieldVortex);
     EXPECT_EQ(s.simulation.fields[0].strength, -4.0F);
+    ASSERT_EQ(s.simulation.bodies.size(), 1U);
+    EXPECT_EQ(s.simulation.bodies[0].shape, kBodyCapsule);
+    ASSERT_EQ(s.simulation.bodies[0].path.size(), 2U);
+    EXPECT_EQ(s.simulation.bodies[0].path[1].turn_degrees, 90.0F);
     EXPECT_EQ(writeScene(parseScene(writeScene(s), "again").value()), writeScene(s));
     EXPECT_EQ(s.frames, (FrameRange{3, 8}));
     EXPECT_EQ(s.size, (Size{64, 48}));

@@ -79,6 +79,34 @@ TEST_F(Simulate, ATapFillsAnEmptySceneAndADrainTakesFromIt) {
     EXPECT_THAT(outcome.err, HasSubstr("emitter 0: expected an opening within the domain"));
 }
 
+TEST_F(Simulate, BodiesAreWrittenBesideTheirFrameAndDrawnWhereTheyAre) {
+    const auto scene = [this](const char* name, const char* half) {
+        write(name, std::string(R"({"size": [96, 64], "particles": {"path": "f_##.pos"},
+            "camera": {"position": [0, 1.5, -3], "target": [0, 0.6, 0]},
+            "simulation": {"radius": 0.05, "fluid": [{"low": [-0.4, 0, -0.4], "high": [0.4, 0.3, 0.4],
+                                                      "velocity": [0, 0, 0]}],
+            "bodies": [{"shape": "box", "centre": [0, 0.8, 0], "half": )") +
+                        half + R"(, "turn_degrees": 20,
+                        "density": 0.5, "velocity": [0, 0, 0], "spin": [0, 0, 0], "path": []}]}})");
+    };
+    scene("s.json", "[0.2, 0.2, 0.2]");
+    ASSERT_EQ(simulate("s.json -o f_##.pos --frames 1..6")["frames"]["written"], 6);
+    const auto height = [this](const char* file) {
+        return nlohmann::json::parse(read(file))["bodies"][0]["centre"][1].get<double>();
+    };
+    EXPECT_NEAR(height("f_01.bodies.json"), 0.8, 1e-6);
+    EXPECT_NEAR(height("f_06.bodies.json"), 0.8 - 0.5 * 9.81 / 36.0, 0.02) << "it falls";
+    const Outcome drawn = run("render s.json --frames 1..6 --no-fluid -o p_##.png");
+    ASSERT_EQ(drawn.code, 0) << drawn.err;
+    EXPECT_NE(read("p_01.png"), read("p_06.png")) << "nothing but the body moves";
+    std::filesystem::remove(at("f_03.bodies.json"));
+    const Outcome missing = run("render s.json --frames 1..6 --no-fluid -o q_##.png");
+    EXPECT_EQ(missing.code, 2);
+    EXPECT_THAT(missing.err, HasSubstr("f_03.bodies.json: cannot be opened, and the scene has bodies"));
+    write("f_03.bodies.json", R"({"bodies": [{"shape": "cone"}]})");
+    EXPECT_THAT(run("render s.json --frames 3..3 --no-fluid -o q.png").err, HasSubstr("the shape \"cone\""));
+}
+
 TEST_F(Simulate, AWrongCommandLineIsOneAndAWrongSceneTwo) {
     writeFluid("s.json");
     write("empty.json", "{}");

@@ -12,6 +12,8 @@
 #include "engine/colour.hpp"
 #include "engine/display_list.hpp"
 #include "engine/frame_state.hpp"
+#include "engine/mesh.hpp"
+#include "engine/moving_bodies.hpp"
 #include "engine/paint.hpp"
 #include "engine/scenery.hpp"
 #include "engine/sky_dome.hpp"
@@ -42,14 +44,15 @@ std::array<float, 16> shadowMatrix(const SluiceSky& sky, float height) {
 struct LegacyEngine::Impl {
     EngineScene scene;
     Texture paving, pool_floor, pool_wall, ashlar, limestone, shaft, arcade, crate, falloff;
-    DisplayList ground, objects, contacts, casters;
+    DisplayList ground, objects, contacts, casters, cube;
     // The dome depends on the sky, which a caller may change from frame to frame; kept while it does not.
     std::optional<SluiceSky> dome_sky;
     DisplayList dome;
 
     explicit Impl(EngineScene wanted);
     void drawSky(const SluiceCamera& camera, const SluiceSky& sky);
-    void drawGround(const SluiceSky& sky) const;
+    void drawGround(const SluiceSky& sky, std::span<const MovingBody> bodies) const;
+    void drawBodies(std::span<const MovingBody> bodies) const;
     void drawContacts() const;
 };
 
@@ -93,6 +96,7 @@ LegacyEngine::Impl::Impl(EngineScene wanted) : scene(std::move(wanted)) {
     });
     contacts = DisplayList([this] { emitContacts(scene); });
     casters = DisplayList([this] { emitCasters(scene); });
+    cube = DisplayList(emitCube);
 }
 
 void LegacyEngine::Impl::drawSky(const SluiceCamera& camera, const SluiceSky& sky) {
@@ -117,7 +121,7 @@ void LegacyEngine::Impl::drawSky(const SluiceCamera& camera, const SluiceSky& sk
     glEnable(GL_TEXTURE_2D);
 }
 
-void LegacyEngine::Impl::drawGround(const SluiceSky& sky) const {
+void LegacyEngine::Impl::drawGround(const SluiceSky& sky, std::span<const MovingBody> bodies) const {
     ground.call();
     GLint stencil_bits = 0;
     glGetIntegerv(GL_STENCIL_BITS, &stencil_bits);
@@ -141,6 +145,7 @@ void LegacyEngine::Impl::drawGround(const SluiceSky& sky) const {
     glPushMatrix();
     glMultMatrixf(matrix.data());
     casters.call();
+    drawBodies(bodies);
     glPopMatrix();
     glPopAttrib();
 
@@ -151,6 +156,22 @@ void LegacyEngine::Impl::drawGround(const SluiceSky& sky) const {
     ground.call();
     glEnable(GL_LIGHT0);
     glDisable(GL_STENCIL_TEST);
+}
+
+void LegacyEngine::Impl::drawBodies(std::span<const MovingBody> bodies) const {
+    for (const MovingBody& body : bodies) {
+        glPushMatrix();
+        applyPose(body);
+        if (body.box) {
+            crate.bind();
+            glScalef(2.0F * body.half[0], 2.0F * body.half[1], 2.0F * body.half[2]);
+            cube.call();
+        } else {
+            limestone.bind();
+            emitRound(body.half);
+        }
+        glPopMatrix();
+    }
 }
 
 void LegacyEngine::Impl::drawContacts() const {
@@ -188,7 +209,7 @@ Result<LegacyEngine> LegacyEngine::create(const EngineScene& scene) {
     return LegacyEngine(std::move(impl));
 }
 
-void LegacyEngine::draw(const SluiceCamera& camera, const SluiceSky& sky) const {
+void LegacyEngine::draw(const SluiceCamera& camera, const SluiceSky& sky, std::span<const MovingBody> bodies) const {
     const FrameScope scope;
     setDefaults();
     const Vec3 clear = horizonColour(sky);
@@ -204,9 +225,10 @@ void LegacyEngine::draw(const SluiceCamera& camera, const SluiceSky& sky) const 
     glLoadMatrixf(&camera.view[0]);
     setLights(sky, impl_->scene);
     setFog(sky, impl_->scene.fog_density);
-    impl_->drawGround(sky);
+    impl_->drawGround(sky, bodies);
     impl_->drawContacts();
     impl_->objects.call();
+    impl_->drawBodies(bodies);
 }
 
 }  // namespace sluice::host

@@ -106,6 +106,23 @@ struct ForceField {
 };
 inline constexpr std::uint32_t kFieldWind = 0, kFieldPoint = 1, kFieldVortex = 2;
 
+/// Where a body that goes its own way is at one time.
+struct PathPoint {
+    float time;  ///< s
+    Vec3 centre;
+    float turn_degrees;  ///< about +y
+};
+/// A body that the fluid pushes, or that goes along its path.
+struct MovingBody {
+    std::uint32_t shape = 0;  ///< kBodySphere, kBodyCapsule, kBodyBox
+    Vec3 centre, half;  ///< of the box about it: a sphere's radius three times, a capsule's radius, half length, radius
+    float turn_degrees;   ///< about +y
+    float density;        ///< of water at rest
+    Vec3 velocity, spin;  ///< m/s, rad/s
+    std::vector<PathPoint> path;
+};
+inline constexpr std::uint32_t kBodySphere = 0, kBodyCapsule = 1, kBodyBox = 2;
+
 /// What `sluice simulate` makes particles of. docs/simulation.md has the formulas. Frame 1 is time 0.
 struct Simulation {
     float radius = 0.02F;                ///< of a particle, metres
@@ -125,6 +142,7 @@ struct Simulation {
     std::vector<Emitter> emitters;
     std::vector<Drain> drains;
     std::vector<ForceField> fields;
+    std::vector<MovingBody> bodies;
 };
 
 struct Scene {

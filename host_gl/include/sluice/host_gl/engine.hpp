@@ -4,6 +4,7 @@
 
 #include <array>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "sluice/plugin.h"
@@ -29,6 +30,14 @@ struct Crate {
 struct Basin {
     Vec3 centre;
     float half_x, half_z, height, wall;
+};
+
+/// Something that is elsewhere in every frame: a wooden box, or a ball or capsule of stone.
+struct MovingBody {
+    bool box;                   ///< or round, upright along its own y axis
+    Vec3 centre;                ///< metres
+    Vec3 half;                  ///< of the box about it along its own axes; a round one's radius, half length, radius
+    std::array<float, 4> turn;  ///< unit quaternion (x, y, z, w) from its axes to the world's
 };
 
 /// What stands in the scene. Lengths in metres, +y up.
@@ -57,7 +66,7 @@ class LegacyEngine {
     /// level of the attribute and matrix stacks). Fixed-function state is set, but no program, sampler or vertex array
     /// may be bound, as in an engine that predates them. The sun's hue lights the scene; a sun_radiance above 1 is as
     /// bright as this engine can show. Shadows fall on the floor only, and only if the framebuffer has a stencil.
-    void draw(const SluiceCamera& camera, const SluiceSky& sky) const;
+    void draw(const SluiceCamera& camera, const SluiceSky& sky, std::span<const MovingBody> bodies = {}) const;
 
   private:
     struct Impl;
