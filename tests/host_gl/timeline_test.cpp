@@ -234,6 +234,21 @@ TEST_F(TimelineTest, FailureOfTheBridgeEndsAWaitAndIsToldOnce) {
     EXPECT_THAT(fake_.signalled, ElementsAreArray({2}));
 }
 
+TEST_F(TimelineTest, ALostRendererThatTakesNoLastValueIsNoWarning) {
+    std::vector<SluiceLogLevel> told;
+    TimelineDeps deps;
+    deps.api = &api_;
+    deps.renderer = fake_.handle();
+    deps.log = [&](SluiceLogLevel level, std::string_view) { told.push_back(level); };
+    fake_.fail_value = 1;
+    {
+        Result<std::unique_ptr<HostTimeline>> timeline = makeHostTimeline(SLUICE_TIMELINE_BRIDGED, deps);
+        ASSERT_TRUE(timeline) << timeline.error().message();
+        ASSERT_TRUE(timeline.value()->signal(1, {}));
+    }
+    EXPECT_THAT(told, ::testing::ElementsAre(SLUICE_LOG_INFO));
+}
+
 TEST_F(TimelineTest, AWaitWithoutHopeIsGivenUpAndNotTakenForADeadline) {
     ledger::LiveLedger ledger;
     std::vector<std::string> told;

@@ -2,6 +2,7 @@
 // The real renderer in a process of its own: the same frames, and what is left when that process dies.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,6 +15,7 @@
 #include "echo_rig.hpp"
 #include "gl_test.hpp"
 #include "sluice/abi_sizes.hpp"
+#include "sluice/capability_words.hpp"
 #include "sluice/ledger/live.hpp"
 
 namespace sluice::host::test {
@@ -172,6 +174,27 @@ TEST_F(IsolationTest, AProcessThatDiedWhileItWaitedIsNotHandedOut) {
     (void)::waitid(P_PID, static_cast<id_t>(now.front()), &info, WEXITED | WNOWAIT);
     ASSERT_NO_FATAL_FAILURE(makeScreen(kEchoWidth, kEchoHeight));
     ASSERT_NO_FATAL_FAILURE(makeHost(config()));
+    ASSERT_NO_FATAL_FAILURE(frameIsClean());
+}
+
+TEST_F(IsolationTest, MoreParticlesThanTheDeviceTakesAreRefusedBeforeOneIsRead) {
+    ASSERT_NO_FATAL_FAILURE(isolate());
+    ASSERT_NO_FATAL_FAILURE(makeScreen(kEchoWidth, kEchoHeight));
+    ASSERT_NO_FATAL_FAILURE(makeHost(config()));
+    const std::uint32_t most = host_->info().capabilities.reserved[kMaxParticlesWord];
+    ASSERT_GT(most, 0U);
+    // A page that nobody can read: whoever copies from it fails otherwise, or crashes.
+    void* page = ::mmap(nullptr, 4096, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    ASSERT_NE(page, MAP_FAILED);
+    auto particles = sized<SluiceParticles>();
+    particles.count = most + 1;
+    particles.radius = 0.1F;
+    particles.position = static_cast<const float*>(page);
+    const Status refused = host_->setParticles(particles);
+    ::munmap(page, 4096);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, SLUICE_ERROR_UNSUPPORTED);
+    EXPECT_THAT(refused.error().message(), HasSubstr("this device takes at most " + std::to_string(most)));
     ASSERT_NO_FATAL_FAILURE(frameIsClean());
 }
 

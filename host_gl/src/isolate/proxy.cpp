@@ -73,6 +73,11 @@ SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* parti
             return status;
         }
         const SluiceParticles given = readAbiStruct(*particles);
+        // The renderer would say so, too, but only once they had been copied.
+        if (const std::uint32_t most = of(renderer)->max_particles; most != 0 && given.count > most) {
+            return Error{SLUICE_ERROR_UNSUPPORTED, "particles",
+                         fmt::format("this device takes at most {}, found {}", most, given.count), "use fewer"};
+        }
         isolate::SetParticles call;
         call.count = given.count;
         call.radius = given.radius;

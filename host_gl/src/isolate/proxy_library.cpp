@@ -9,6 +9,7 @@
 #include "isolate/proxy.hpp"
 #include "isolate/proxy_parts.hpp"
 #include "sluice/abi_boundary.hpp"
+#include "sluice/capability_words.hpp"
 
 namespace sluice::host::proxy {
 
@@ -94,6 +95,7 @@ SluiceResult create(Isolation& plugin, const SluiceHostServices* host, const Slu
         }
         made->by_cpu = settled.timeline == SLUICE_TIMELINE_BRIDGED || settled.timeline == SLUICE_TIMELINE_FINISH ||
                        settled.timeline == SLUICE_TIMELINE_UNSYNCHRONISED;
+        made->max_particles = settled.capabilities.reserved[kMaxParticlesWord];
         *renderer = reinterpret_cast<SluiceRenderer*>(made.release());
         return {};
     });

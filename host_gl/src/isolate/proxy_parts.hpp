@@ -21,8 +21,9 @@ namespace sluice::host::proxy {
 struct Proxy {
     std::unique_ptr<RendererProcess> process;
     SluiceHostServices services{};
-    bool by_cpu = false;      ///< the host's counter is signalled by timeline_signal
-    std::uint64_t frame = 0;  ///< submitted last
+    bool by_cpu = false;              ///< the host's counter is signalled by timeline_signal
+    std::uint64_t frame = 0;          ///< submitted last
+    std::uint32_t max_particles = 0;  ///< that the device takes; 0: not said
 };
 
 [[nodiscard]] inline Proxy* of(SluiceRenderer* renderer) {

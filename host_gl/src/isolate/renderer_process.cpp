@@ -133,6 +133,7 @@ Error RendererProcess::gone() {
     Error error = *end_;
     if (told_) {
         error.detail = "is gone; the log says how";
+        error.remedy.clear();
     }
     return error;
 }
@@ -160,7 +161,7 @@ Result<isolate::Received> RendererProcess::nextMessage(std::uint64_t deadline_ns
 
 Status RendererProcess::deliver(const isolate::Message& message, std::uint64_t number, std::span<const int> fds,
                                 const std::string& what, std::uint64_t deadline_ns) {
-    const Status sent = channel_.send(message, number, fds, until(deadline_ns));
+    Status sent = channel_.send(message, number, fds, until(deadline_ns));
     if (sent) {
         return {};
     }

@@ -50,7 +50,8 @@ BridgeThread::~BridgeThread() {
         glDeleteSync(promise.fence);
     }
     if (error_ && deps_.log) {
-        deps_.log(SLUICE_LOG_WARNING, error_->message());
+        // A lost renderer has been told of where it was noticed; that it takes no values then is no news.
+        deps_.log(error_->code == SLUICE_ERROR_DEVICE_LOST ? SLUICE_LOG_INFO : SLUICE_LOG_WARNING, error_->message());
     }
 }
 

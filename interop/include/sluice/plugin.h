@@ -266,7 +266,7 @@ typedef struct SluiceRendererCapabilities {
     uint32_t storage_formats;    /* bit per SluiceFormat: usable as a storage image */
     uint32_t blendable_formats;  /* bit per SluiceFormat: colour attachment with blending */
     char device_name[128], driver_name[64], driver_info[128];
-    uint32_t reserved[8]; /* zero */
+    uint32_t reserved[8]; /* [0]: the most particles that set_particles takes, 0 if not said; the others zero */
 } SluiceRendererCapabilities;
 
 /* ------------------------------------------------------------------------------------------------------ scene -- */

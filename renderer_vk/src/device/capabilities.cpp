@@ -7,6 +7,7 @@
 
 #include "device/structs.hpp"
 #include "memory/image.hpp"
+#include "sluice/capability_words.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::vk {
@@ -147,6 +148,8 @@ DeviceCandidate queryCandidate(const InstanceFunctions& fn, VkPhysicalDevice dev
     std::memcpy(out.device_uuid, id.deviceUUID, SLUICE_UUID_SIZE);
     std::memcpy(out.driver_uuid, id.driverUUID, SLUICE_UUID_SIZE);
     copyText(out.device_name, properties.properties.deviceName);
+    out.reserved[kMaxParticlesWord] =
+        static_cast<std::uint32_t>(properties.properties.limits.maxStorageBufferRange / kPositionBytes);
     candidate.driver = driver.driverID;
     copyText(out.driver_name, driver.driverName);
     copyText(out.driver_info, driver.driverInfo);

@@ -4,11 +4,16 @@
 
 #include <volk.h>
 
+#include <cstdint>
+
 #include "device/functions.hpp"
 #include "device/select.hpp"
 #include "sluice/plugin.h"
 
 namespace sluice::vk {
+
+/// Of one particle in the buffer that the passes bind: x, y, z.
+inline constexpr std::uint64_t kPositionBytes = 3 * sizeof(float);
 
 /// Usage of a shared image of `format`: all that either side may do with it and the device supports, because OpenGL
 /// assumes that the image was made for everything it can do (GL_EXT_external_objects, issue 13).

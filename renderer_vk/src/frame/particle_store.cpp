@@ -6,14 +6,13 @@
 #include <cstring>
 #include <utility>
 
+#include "device/capabilities.hpp"
 #include "device/commands.hpp"
 
 namespace sluice::vk {
 namespace {
 
 constexpr VkBufferUsageFlags kUsage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_VERTEX_BUFFER_BIT;
-/// Of one particle: x, y, z.
-constexpr std::uint64_t kPositionBytes = 3 * sizeof(float);
 
 /// The CPU can write where the GPU reads, and no copy is needed: the largest local heap is host-visible. A small window
 /// of 256 MiB beside a large heap does not count; it is soon full.
