@@ -4,6 +4,7 @@
 //   simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS]
 // Error: max(density - 1, 0); its mean over particles and over samples every 0.05 s, and the greatest of all samples.
 // Cost: least of the repeats of each 0.05 s, which are the same work bit for bit, summed; densities are read untimed.
+// A run for which the solver found no stable step has no figures.
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -20,9 +21,10 @@ struct Cost {
 struct Outcome {
     std::uint32_t particles = 0, steps = 0;
     Compression error;
-    double energy = 0.0;  ///< at the end, of the first
+    double energy = 0.0;  ///< greatest of all samples, of the first
     Cost cost;
-    double seconds = 0.0;  ///< simulated
+    double seconds = 0.0;   ///< simulated
+    bool unstable = false;  ///< the solver said that it found no step
 };
 
 constexpr double kSample = 0.05;  // s
@@ -39,14 +41,20 @@ Outcome measure(const sluice::vk::Device& device, const Scene& scene, int sample
         for (Cost& part : least) {
             const double cpu = cpuSeconds();
             const double wall = wallSeconds();
-            outcome.steps += take(solver->advance(kSample, longest)).steps;
+            const auto report = solver->advance(kSample, longest);
+            if (!report) {
+                fmt::print(stderr, "{}\n", report.error().message());
+                outcome.unstable = true;
+                return outcome;
+            }
+            outcome.steps += report.value().steps;
             part.cpu = std::min(part.cpu, cpuSeconds() - cpu);
             part.wall = std::min(part.wall, wallSeconds() - wall);
             const Compression now = compressionOf(take(solver->densities()));
             outcome.error.mean += now.mean / samples;
+            outcome.energy = std::max(outcome.energy, energyOf(take(solver->read())) / at_first);
             outcome.error.greatest = std::max(outcome.error.greatest, now.greatest);
         }
-        outcome.energy = energyOf(take(solver->read())) / at_first;
     }
     for (const Cost& part : least) {
         outcome.cost.cpu += part.cpu;
@@ -86,6 +94,11 @@ int main(int argc, char** argv) {
                 Scene scene = falling ? damBreak(particles) : standingColumn(particles);
                 scene.settings.iterations = count;
                 const Outcome found = measure(*device, scene, falling ? 12 : 10, 1.0 / rate, repeats);
+                if (found.unstable) {
+                    fmt::print("{},{},{},{},,,,,,\n", falling ? "dam" : "column", found.particles, count, rate);
+                    std::fflush(stdout);
+                    continue;
+                }
                 fmt::print("{},{},{},{},{:.0f},{:.5f},{:.4f},{:.4f},{:.0f},{:.0f}\n", falling ? "dam" : "column",
                            found.particles, count, rate, found.steps / found.seconds, found.error.mean,
                            found.error.greatest, found.energy, 1e3 * found.cost.cpu / found.seconds,

@@ -25,6 +25,16 @@ double squares(const std::vector<float>& values) {
     return total;
 }
 
+/// The field of /proc/self/statm, in bytes.
+long memoryOfProcess(int field) {
+    std::ifstream file("/proc/self/statm");
+    long pages = 0;
+    for (int i = 0; i <= field; ++i) {
+        file >> pages;
+    }
+    return pages * sysconf(_SC_PAGESIZE);
+}
+
 }  // namespace
 
 Scene waterInTrough(long across, long deep, double reach) {
@@ -90,12 +100,12 @@ double wallSeconds() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+long virtualBytes() {
+    return memoryOfProcess(0);
+}
+
 long residentBytes() {
-    std::ifstream file("/proc/self/statm");
-    long total = 0;
-    long resident = 0;
-    file >> total >> resident;
-    return resident * sysconf(_SC_PAGESIZE);
+    return memoryOfProcess(1);
 }
 
 long openFiles() {

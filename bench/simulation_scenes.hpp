@@ -43,7 +43,8 @@ struct Compression {
 /// Seconds on all threads of this process, and on the wall.
 [[nodiscard]] double cpuSeconds();
 [[nodiscard]] double wallSeconds();
-/// Bytes of this process in memory, and its open files.
+/// Bytes of this process in its address space and in memory, and its open files.
+[[nodiscard]] long virtualBytes();
 [[nodiscard]] long residentBytes();
 [[nodiscard]] long openFiles();
 
