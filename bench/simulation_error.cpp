@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Speed against error: what it costs to simulate a second of a dam break and of a standing column, and how far each is
 // compressed, over iterations and longest step; as CSV for scripts/plot-simulation.
-//   simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS]
+//   simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS] [dam|column]
 // Error: max(density - 1, 0); its mean over particles and over samples every 0.05 s, and the greatest of all samples.
 // Cost: least of the repeats of each 0.05 s, which are the same work bit for bit, summed; densities are read untimed.
 // A run for which the solver found no stable step has no figures.
@@ -77,18 +77,22 @@ std::vector<std::uint32_t> listOf(const char* text) {
 
 int main(int argc, char** argv) {
     if (argc < 2 || std::strtol(argv[1], nullptr, 10) < 1) {
-        fmt::print(stderr, "simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS]\n");
+        fmt::print(stderr, "simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS] [dam|column]\n");
         return 2;
     }
     const long particles = std::strtol(argv[1], nullptr, 10);
     const auto iterations = listOf(argc > 2 ? argv[2] : "1,2,4,8,16");
     const auto hertz = listOf(argc > 3 ? argv[3] : "60,120,250,500");
     const long repeats = argc > 4 ? std::max(1L, std::strtol(argv[4], nullptr, 10)) : 2;
+    const std::string only = argc > 5 ? argv[5] : "";
     const auto device = makeDevice();
     fmt::print(
         "scene,particles,iterations,hertz,steps_per_s,mean_compression,greatest_compression,energy,cpu_ms_per_s,"
         "wall_ms_per_s\n");
     for (const bool falling : {true, false}) {
+        if (!only.empty() && falling != (only == "dam")) {
+            continue;
+        }
         for (const std::uint32_t count : iterations) {
             for (const std::uint32_t rate : hertz) {
                 Scene scene = falling ? damBreak(particles) : standingColumn(particles);

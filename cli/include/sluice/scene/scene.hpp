@@ -129,7 +129,7 @@ struct Simulation {
     Vec3 low{-1, 0, -1}, high{1, 2, 1};  ///< the box that nothing leaves
     Vec3 gravity{0, -9.81F, 0};          ///< m/s^2
     float frames_per_second = 30.0F;
-    std::uint32_t steps_per_frame = 4;  ///< at least; fast fluid takes more
+    std::uint32_t steps_per_frame = 8;  ///< at least; fast fluid takes more; 4 let deep fluid gain energy
     std::uint32_t iterations = 4;
     float relaxation = 0.1F, tensile = 0.0005F, viscosity = 0.02F, vorticity = 0.0F, cfl = 0.4F;
     float jitter = 0.05F;                   ///< radii that a particle may be off its lattice at the start
