@@ -104,6 +104,8 @@ simulator::Setup simulationSetup(const scene::Scene& scene) {
     setup.viscosity = s.viscosity;
     setup.vorticity = s.vorticity;
     setup.cfl = s.cfl;
+    setup.tension = s.tension;
+    setup.adhesion = s.adhesion;
     for (const scene::SolidSphere& sphere : s.spheres) {
         setup.spheres.push_back({sphere.centre, sphere.radius});
     }

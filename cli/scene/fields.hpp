@@ -164,6 +164,8 @@ void visitSimulation(Visitor& v, Simulation& s) {
     v.number("tensile", s.tensile, kUnit);
     v.number("viscosity", s.viscosity, kUnit);
     v.number("vorticity", s.vorticity, Range{0.0, 100.0});
+    v.number("tension", s.tension, Range{0.0, 100.0});
+    v.number("adhesion", s.adhesion, Range{0.0, 100.0});
     v.number("cfl", s.cfl, Range{0.01, 0.5});
     v.number("jitter", s.jitter, Range{0.0, 0.5});
     v.flag("collide_with_engine", s.collide_with_engine);

@@ -21,6 +21,8 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
     s.viscosity = setup.viscosity;
     s.vorticity = setup.vorticity;
     s.cfl = setup.cfl;
+    s.tension = setup.tension;
+    s.adhesion = setup.adhesion;
     for (const Sphere& sphere : setup.spheres) {
         s.solids.push_back(vk::sphereSolid(sphere.centre, sphere.radius));
     }

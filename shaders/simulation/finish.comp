@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// XSPH viscosity (Schechter & Bridson 2012), vorticity confinement, and the end of the step: the state that the next one
+// XSPH viscosity (Schechter & Bridson 2012), vorticity confinement, surface tension (Akinci et al. 2013), and the end of the step: the state that the next one
 // starts from, with what the host judges it by.
 #define BODIES_BINDING 10
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;
 layout(constant_id = 0) const uint CONFINE = 0u;
+layout(constant_id = 2) const uint TENSION = 0u;
 layout(set = 0, binding = 1) uniform textureBuffer sorted;
 layout(set = 0, binding = 2) uniform textureBuffer moving;
 layout(set = 0, binding = 3) uniform textureBuffer curl_of;  // read only if CONFINE
@@ -16,7 +17,41 @@ layout(std430, set = 0, binding = 5) readonly buffer ListCount { uint list_count
 layout(std430, set = 0, binding = 6) readonly buffer Before { vec4 before[]; };
 layout(std430, set = 0, binding = 7) writeonly buffer Position { vec4 position[]; };
 layout(std430, set = 0, binding = 8) writeonly buffer Velocity { vec4 velocity[]; };
+layout(set = 0, binding = 12) uniform textureBuffer surface;  // read only if TENSION
 layout(std430, set = 0, binding = 9) buffer Status { uint faults, most_neighbours, speed, move; };
+
+float pow3(float x) { return x * x * x; }
+
+// Of a wall `d` away, m/s^2.
+float attraction(float d) {
+    const float at = clamp(d / p.high.w, 0.0, 1.0) * 16.0;
+    const uint k = min(uint(at), 15u);
+    return p.surface.z * mix(p.adhesion[k / 4u][k % 4u], p.adhesion[(k + 1u) / 4u][(k + 1u) % 4u], at - float(k));
+}
+
+// The cohesion kernel over its greatest value at h/2, 32 / (pi h^9) h^6 / 64 (Akinci et al. 2013, eq. 2). Attracts beyond about a
+// quarter of the support, and repels within.
+float cohesion(float q) {
+    const float bump = 64.0 * pow3(1.0 - q) * pow3(q);
+    return q > 0.5 ? bump : 2.0 * bump - 1.0;
+}
+
+// Towards walls, m/s^2; what pulls a particle to a body pulls the body to it.
+vec3 adhesionAt(vec3 x) {
+    const vec3 low = x - p.low.xyz;
+    const vec3 high = p.high.xyz - x;
+    vec3 pull = vec3(attraction(high.x) - attraction(low.x), attraction(high.y) - attraction(low.y),
+                     attraction(high.z) - attraction(low.z));
+    for (uint k = 0u; k < p.count.w; ++k) {
+        const vec4 d = distanceTo(k, x);
+        const vec3 to_solid = d.xyz * -attraction(d.w);
+        pull += to_solid;
+        if (BODIES == 1u && k >= p.change.w && d.w < p.high.w) {
+            addPush(k - p.change.w, x, to_solid * (p.gravity.w * p.gravity.w));
+        }
+    }
+    return pull;
+}
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
@@ -29,12 +64,19 @@ void main() {
     const uint number = list_count[i];
     vec3 drift = vec3(0);
     vec3 eta = vec3(0);
+    vec3 tension = vec3(0);
+    const vec4 mine = TENSION == 1u ? texelFetch(surface, int(i)) : vec4(0);
     uint at = i;
     for (uint k = 0u; k < number; ++k, at += p.count.y) {
         const uint j = texelFetch(list, int(at)).x;
         const vec4 d = between(x, texelFetch(sorted, int(j)).xyz, i, j);
         const float bracket = max(h * h - d.w * d.w, 0.0);
         drift += (texelFetch(moving, int(j)).xyz - v) * (bracket * bracket * bracket);
+        if (TENSION == 1u) {
+            const vec4 other = texelFetch(surface, int(j));
+            tension -= (d.xyz * (p.surface.x * cohesion(d.w / h) / d.w) + (mine.xyz - other.xyz) * p.surface.y) *
+                       (2.0 / (mine.w + other.w));
+        }
         if (CONFINE == 1u) {
             const float near = max(h - d.w, 0.0);
             eta += d.xyz * (texelFetch(curl_of, int(j)).w * p.kernel.y * near * near / d.w);
@@ -56,6 +98,12 @@ void main() {
         const float steep = length(eta);
         const vec3 curl = texelFetch(curl_of, int(i)).xyz;
         result += p.gravity.w * p.fluid.y * (steep > 1e-6 ? cross(eta / steep, curl) : vec3(0));
+    }
+    if (TENSION == 1u) {
+        result += p.gravity.w * tension;
+        if (p.surface.w == 1.0) {
+            result += p.gravity.w * adhesionAt(x);
+        }
     }
     position[i] = vec4(x, 0);
     velocity[i] = vec4(result, 0);

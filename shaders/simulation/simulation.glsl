@@ -24,6 +24,8 @@ layout(std140, set = 0, binding = 0) uniform Parameters {
     uvec4 grid;      // x = cells along x, y and z = masks along y and z, w = cells
     uvec4 change;    // x = particles before the sort, of which some may be gone; y = births after the step, z = the
                      // identity of the first of them, w = solids that are no bodies
+    vec4 surface;    // x = cohesion, y = curvature, z = adhesion, m/s^2; w = 1: adhesion is on
+    vec4 adhesion[5];  // of a half-space, at distances of 0, 1/16, ... 1 support; the last three are 0
     Solid solid[MAX_SOLIDS];
 } p;
 

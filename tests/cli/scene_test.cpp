@@ -35,7 +35,7 @@ TEST(SceneFile, EveryKeyIsRead) {
         "engine": {"pillars": [{"base": [1, 0, 2], "radius": 0.25, "height": 3}],
                    "basins": [{"centre": [0, 1, 0], "half_x": 1, "half_z": 2, "height": 3, "wall": 4}]},
         "simulation": {"radius": 0.05, "domain": {"low": [-2, 0, -2], "high": [2, 3, 2]}, "gravity": [0, -1, 0],
-                       "frames_per_second": 60, "steps_per_frame": 2, "iterations": 7, "viscosity": 0.5,
+                       "frames_per_second": 60, "steps_per_frame": 2, "iterations": 7, "viscosity": 0.5, "tension": 1.5, "adhesion": 2,
                        "collide_with_engine": false,
                        "fluid": [{"low": [0, 0, 0], "high": [1, 1, 1], "velocity": [0, 0, 4]}],
                        "spheres": [{"centre": [1, 2, 3], "radius": 0.5}],
@@ -77,6 +77,8 @@ TEST(SceneFile, EveryKeyIsRead) {
     EXPECT_EQ(s.simulation.steps_per_frame, 2U);
     EXPECT_EQ(s.simulation.frames_per_second, 60.0F);
     EXPECT_EQ(s.simulation.viscosity, 0.5F);
+    EXPECT_EQ(s.simulation.tension, 1.5F);
+    EXPECT_EQ(s.simulation.adhesion, 2.0F);
     EXPECT_EQ(s.simulation.collide_with_engine, 0U);
     ASSERT_EQ(s.simulation.fluid.size(), 1U);
     EXPECT_EQ(s.simulation.fluid[0].velocity, (Vec3{0, 0, 4}));

@@ -22,5 +22,6 @@ sluice_add_test(renderer_vk_simulation_test OPTIMISED
     simulation_physics_test.cpp
     simulation_sources_test.cpp
     simulation_step_test.cpp
+    simulation_tension_test.cpp
     LIBS sluice_renderer_vk_core)
 target_include_directories(renderer_vk_simulation_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -53,7 +53,7 @@ SlotSize sizeOf(Slot slot, const SimulationBuffers& b) {
         case Slot::Pushed:
             return {"simulation pushed", n * kVector, VK_FORMAT_R32G32B32A32_SFLOAT};
         case Slot::Walls:
-            return {"simulation walls", n * kVector};
+            return {"simulation walls", n * kVector, VK_FORMAT_R32G32B32A32_SFLOAT};
         case Slot::List:
             return {"simulation lists", VkDeviceSize{b.stride()} * b.neighbours * kWord, VK_FORMAT_R32_UINT};
         case Slot::ListCount:

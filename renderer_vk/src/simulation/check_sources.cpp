@@ -40,7 +40,7 @@ Status checkOpening(const Emitter& e, const std::string& thing, float radius) {
                      fmt::format("{} and {}", e.width, e.height));
     }
     const double spacing = 2.0 * double{radius};
-    if (double{e.width} / spacing * double{e.height} / spacing > kMostSites) {
+    if (std::max(double{e.width} / spacing, 1.0) * std::max(double{e.height} / spacing, 1.0) > kMostSites) {
         return wrong(thing, fmt::format("an opening for at most {} particles", kMostSites),
                      fmt::format("{} by {} m with particles of radius {}", e.width, e.height, radius));
     }

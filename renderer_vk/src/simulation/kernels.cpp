@@ -14,6 +14,7 @@
 #include <shaders/simulation_scan_cells_comp.h>
 #include <shaders/simulation_scan_sums_comp.h>
 #include <shaders/simulation_scatter_comp.h>
+#include <shaders/simulation_surface_comp.h>
 #include <shaders/simulation_velocity_comp.h>
 
 #include <span>
@@ -47,8 +48,9 @@ std::vector<KernelDesc> descriptions(const Features& features) {
     using enum Slot;
     const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}};
     const std::uint32_t bodies = features.bodies ? 1 : 0;
-    const std::vector<Use> finish{texels(Sorted), texels(Moving), texels(Curl), texels(List),    {ListCount}, {Before},
-                                  {PositionOut},  {VelocityOut},  {Status},     uniform(Bodies), {Pushes}};
+    const std::vector<Use> finish{texels(Sorted), texels(Moving),  texels(Curl),  texels(List),
+                                  {ListCount},    {Before},        {PositionOut}, {VelocityOut},
+                                  {Status},       uniform(Bodies), {Pushes},      texels(Walls)};
     return {
         {Kernel::Predict,
          simulation_predict_comp,
@@ -89,7 +91,11 @@ std::vector<KernelDesc> descriptions(const Features& features) {
          {0, bodies}},
         {Kernel::Velocity, simulation_velocity_comp, {{Sorted}, {Before}, {Moving}}},
         {Kernel::Curl, simulation_curl_comp, {texels(Sorted), texels(Moving), texels(List), {ListCount}, {Slot::Curl}}},
-        {Kernel::Finish, simulation_finish_comp, finish, {features.confined ? 1U : 0U, bodies}},
+        {Kernel::Surface, simulation_surface_comp, {texels(Sorted), texels(List), {ListCount}, {Slot::Walls}}},
+        {Kernel::Finish,
+         simulation_finish_comp,
+         finish,
+         {features.confined ? 1U : 0U, bodies, features.tension ? 1U : 0U}},
         {Kernel::Retire, simulation_retire_comp, {uniform(Sources), {Births}, {Blocked}, {PositionOut}, {Status}}},
         {Kernel::Born,
          simulation_born_comp,
@@ -117,9 +123,9 @@ Slot exchanged(Slot slot) {
     }
 }
 
-constexpr std::array<const char*, kKernels> kNames{"predict",  "scan_sums",  "scan_blocks", "scan_cells", "scatter",
-                                                   "order",    "neighbours", "lambda",      "measure",    "delta",
-                                                   "velocity", "curl",       "finish",      "retire",     "born"};
+constexpr std::array<const char*, kKernels> kNames{
+    "predict", "scan_sums", "scan_blocks", "scan_cells", "scatter", "order",  "neighbours", "lambda",
+    "measure", "delta",     "velocity",    "curl",       "surface", "finish", "retire",     "born"};
 
 void write(const Device& device, VkDescriptorSet set, std::uint32_t binding, Use use,
            const SimulationBuffers& buffers) {
@@ -147,7 +153,7 @@ Result<Kernels> Kernels::create(const Device& device, const Features& features) 
     constexpr auto kSets = static_cast<std::uint32_t>(2 * kKernels);
     constexpr std::array<VkDescriptorPoolSize, 3> kSizes{{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 3 * kSets},
                                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 10 * kSets},
-                                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 4 * kSets}}};
+                                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 5 * kSets}}};
     auto pool = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = kSets;
     pool.poolSizeCount = static_cast<std::uint32_t>(kSizes.size());

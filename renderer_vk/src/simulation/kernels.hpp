@@ -27,6 +27,7 @@ enum class Kernel : std::uint8_t {
     Delta,
     Velocity,
     Curl,
+    Surface,
     Finish,
     Retire,
     Born,
@@ -42,6 +43,7 @@ struct Features {
     bool confined = false;  ///< vorticity confinement
     bool fields = false;    ///< force fields
     bool bodies = false;    ///< bodies that are pushed
+    bool tension = false;   ///< surface tension or adhesion
 };
 
 [[nodiscard]] const char* kernelName(Kernel kernel);

@@ -81,6 +81,21 @@ double wallFactor() {
     return (1.0 - latticeSum(kRadius, 0) / latticeSum(kRadius, -2)) / kHalfSpace;
 }
 
+double halfSpaceAdhesion(double q) {
+    // Shells of radius s, of which the directions within acos(q / s) of the normal lie behind the plane: their cosines
+    // add up to pi (1 - q^2 / s^2). Midpoints, as the fourth root is steep at both ends.
+    constexpr int kParts = 2000;
+    const double from = std::max(q, 0.5);
+    const double step = (1.0 - from) / kParts;
+    double sum = 0.0;
+    for (int i = 0; i < kParts; ++i) {
+        const double s = from + (i + 0.5) * step;
+        const double root = std::pow(std::max(-4.0 * s * s + 6.0 * s - 2.0, 0.0), 0.25);
+        sum += 0.007 * root * std::numbers::pi * (s * s - q * q);
+    }
+    return sum * step;
+}
+
 Parameters parametersOf(const SimulationSettings& s, const Grid& grid, const StepCounts& counts, std::uint32_t stride,
                         std::uint32_t most, float dt, std::span<const BodyState> bodies) {
     const auto h = double{s.support()};
@@ -99,6 +114,21 @@ Parameters parametersOf(const SimulationSettings& s, const Grid& grid, const Ste
     p.count = {counts.living, stride, most, static_cast<std::uint32_t>(s.solids.size() + bodies.size())};
     p.change = {counts.entries, counts.births, counts.next_identity, static_cast<std::uint32_t>(s.solids.size())};
     p.grid = {grid.x, grid.y - 1, grid.z - 1, grid.cells()};
+    if (s.tension > 0.0F || s.adhesion > 0.0F) {
+        // Cohesion is an attraction of masses, those of a particle of water; its kernel's greatest value is 1 / (2 pi
+        // h^3).
+        const double peak = kRestDensity * volume / (2.0 * std::numbers::pi * std::pow(h, 3));
+        p.surface = {static_cast<float>(double{s.tension} * peak), s.tension,
+                     static_cast<float>(double{s.adhesion} * kRestDensity), s.adhesion > 0.0F ? 1.0F : 0.0F};
+        static const auto kAdhesion = [] {
+            std::array<float, 20> table{};
+            for (std::size_t i = 0; i < 16; ++i) {
+                table.at(i) = static_cast<float>(halfSpaceAdhesion(static_cast<double>(i) / 16.0));
+            }
+            return table;
+        }();
+        p.adhesion = kAdhesion;
+    }
     for (std::size_t i = 0; i < s.solids.size(); ++i) {
         p.solids.at(i) = blockOf(s.solids[i]);
     }

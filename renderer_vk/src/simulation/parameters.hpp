@@ -16,9 +16,11 @@ struct SolidBlock {
 struct Parameters {
     std::array<float, 4> gravity, low, high, kernel, fluid, search;
     std::array<std::uint32_t, 4> count, grid, change;
+    std::array<float, 4> surface;
+    std::array<float, 20> adhesion;
     std::array<SolidBlock, kMaxSolids + kMaxBodies> solids;  ///< bodies behind those that stand still
 };
-static_assert(sizeof(Parameters) == 144 + 48 * (kMaxSolids + kMaxBodies), "std140");
+static_assert(sizeof(Parameters) == 240 + 48 * (kMaxSolids + kMaxBodies), "std140");
 
 /// The cells of the neighbour search. x is one row of cells with an empty one at each end; y and z are powers of two
 /// and wrap around when the domain has more.
@@ -37,6 +39,10 @@ inline constexpr std::uint32_t kMostCells = 1U << 22;
 /// What the density of a wall, poly6 integrated over a half-space, is multiplied with: with it, a cubic lattice whose
 /// first layer is a radius away from the wall has the density of rest there too, exactly 1. A number near 0.881.
 [[nodiscard]] double wallFactor();
+
+/// Adhesion of a half-space `q` supports away, of strength 1 and density 1: Akinci et al. 2013's kernel (eq. 7)
+/// integrated over it, along its normal.
+[[nodiscard]] double halfSpaceAdhesion(double q);
 
 /// How many particles a step has, and what becomes of them.
 struct StepCounts {

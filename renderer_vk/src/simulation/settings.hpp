@@ -25,6 +25,8 @@ struct SimulationSettings {
     float tensile = 0.0005F;               ///< k of the artificial pressure, times h^2
     float viscosity = 0.02F;               ///< c of XSPH, 0 to 1
     float vorticity = 0.0F;                ///< epsilon of vorticity confinement, m/s; not 0: momentum is not kept
+    float tension = 0.0F;                  ///< gamma of Akinci et al. 2013, m/s^2; water about 1
+    float adhesion = 0.0F;                 ///< beta of the same, towards walls
     float cfl = 0.4F;                      ///< supports that a particle may fly in one step
     std::vector<Solid> solids;
     SourceSettings sources;

@@ -54,8 +54,9 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
     state->sources = sourceBlock(settings.sources);
     state->walls = wallsOf(settings);
     state->restartBodies();
-    Result<Kernels> kernels = Kernels::create(
-        device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty()});
+    Result<Kernels> kernels =
+        Kernels::create(device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty(),
+                                 settings.tension > 0.0F || settings.adhesion > 0.0F});
     if (!kernels) {
         return kernels.error();
     }

@@ -259,6 +259,47 @@ void iterate(const SimulationSettings& s, Bodies& bodies, const Kernels& kernels
     x = moved;
 }
 
+/// Akinci et al. 2013, with the density of rest 1000 and volumes of rest in the normals, m/s^2.
+std::vector<Vec> surfaceForces(const SimulationSettings& s, const Bodies& bodies, const Kernels& kernels,
+                               const Lists& lists, const std::vector<Vec>& x) {
+    const double h = kernels.h;
+    std::vector<Vec> pull(x.size());
+    std::vector<Vec> normal(x.size());
+    std::vector<double> density(x.size());
+    if (s.tension <= 0.0F && s.adhesion <= 0.0F) {
+        return pull;
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        const Walls walls = wallsAt(s, bodies, kernels, x[i]);
+        density[i] = densityAt(x, lists[i], kernels, walls, i);
+        normal[i] = h * walls.gradient;
+        for (const std::size_t j : lists[i]) {
+            normal[i] = normal[i] + h * kernels.volume * kernels.gradient(x[i] - x[j]);
+        }
+    }
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        for (const std::size_t j : lists[i]) {
+            const Vec d = x[i] - x[j];
+            const double r = norm(d);
+            const double bump = std::pow(h - r, 3) * std::pow(r, 3);
+            const double shape = r > h / 2.0 ? bump : 2.0 * bump - std::pow(h, 6) / 64.0;
+            const double cohesion = 32.0 / (kPi * std::pow(h, 9)) * shape;
+            const Vec force = 1000.0 * kernels.volume * cohesion / r * d + (normal[i] - normal[j]);
+            pull[i] = pull[i] - double{s.tension} * 2.0 / (density[i] + density[j]) * force;
+        }
+        for (const Contact& contact : contacts(s, bodies, x[i])) {
+            const double d = std::clamp(contact.distance, 0.0, h);
+            // Over the half-space behind the wall, in shells about the particle.
+            const double sum = integral(std::max(d, h / 2.0), h, [&](double r) {
+                const double root = std::pow(std::max(-4.0 * r * r / h + 6.0 * r - 2.0 * h, 0.0), 0.25);
+                return 0.007 / std::pow(h, 3.25) * root * kPi * (r * r - d * d);
+            });
+            pull[i] = pull[i] - double{s.adhesion} * 1000.0 * sum * contact.normal;
+        }
+    }
+    return pull;
+}
+
 }  // namespace
 
 ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& before, double dt) {
@@ -290,6 +331,7 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
         }
     }
     ReferenceState after{x, v, std::vector<double>(n)};
+    const std::vector<Vec> pull = surfaceForces(s, bodies, kernels, lists, x);
     for (std::size_t i = 0; i < n; ++i) {
         Vec drift{};
         Vec eta{};
@@ -310,6 +352,7 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
         if (s.vorticity > 0.0F && norm(eta) > 1e-6) {
             after.velocity[i] = after.velocity[i] + dt * double{s.vorticity} / norm(eta) * cross(eta, curl[i]);
         }
+        after.velocity[i] = after.velocity[i] + dt * pull[i];
         after.density[i] = densityAt(x, lists[i], kernels, wallsAt(s, bodies, kernels, x[i]), i);
     }
     return after;
