@@ -19,6 +19,7 @@ Scene column(std::uint32_t iterations) {
     scene.base = kWide * kSpacing;
     scene.settings.radius = static_cast<float>(kSpacing / 2.0);
     scene.settings.iterations = iterations;
+    scene.settings.overshoot = 0.0F;  // what is measured here is what the rule is for
     scene.settings.low = {0, 0, 0};
     scene.settings.high = {static_cast<float>(scene.base), 1.2F, static_cast<float>(scene.base)};
     for (int i = 0; i < kWide * kHigh * kWide; ++i) {

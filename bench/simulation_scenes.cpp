@@ -42,6 +42,7 @@ Scene waterInTrough(long across, long deep, double reach) {
     scene.base = kBase;
     const double spacing = kBase / static_cast<double>(across);
     scene.settings.radius = static_cast<float>(spacing / 2.0);
+    scene.settings.overshoot = 0.0F;  // what is measured here is what the rule is for
     scene.settings.low = {0, 0, 0};
     scene.settings.high = {static_cast<float>(reach * kBase), static_cast<float>(3.0 * kBase),
                            static_cast<float>(static_cast<double>(deep) * spacing)};

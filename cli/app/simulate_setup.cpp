@@ -106,6 +106,7 @@ simulator::Setup simulationSetup(const scene::Scene& scene) {
     setup.cfl = s.cfl;
     setup.tension = s.tension;
     setup.adhesion = s.adhesion;
+    setup.overshoot = s.overshoot;
     for (const scene::SolidSphere& sphere : s.spheres) {
         setup.spheres.push_back({sphere.centre, sphere.radius});
     }

@@ -167,6 +167,7 @@ void visitSimulation(Visitor& v, Simulation& s) {
     v.number("tension", s.tension, Range{0.0, 100.0});
     v.number("adhesion", s.adhesion, Range{0.0, 100.0});
     v.number("cfl", s.cfl, Range{0.01, 0.5});
+    v.number("overshoot", s.overshoot, Range{0.0, 1.0});
     v.number("jitter", s.jitter, Range{0.0, 0.5});
     v.flag("collide_with_engine", s.collide_with_engine);
     v.list("fluid", s.fluid, [](auto& o, FluidBox& box) {

@@ -23,6 +23,7 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
     s.cfl = setup.cfl;
     s.tension = setup.tension;
     s.adhesion = setup.adhesion;
+    s.overshoot = setup.overshoot;
     for (const Sphere& sphere : setup.spheres) {
         s.solids.push_back(vk::sphereSolid(sphere.centre, sphere.radius));
     }

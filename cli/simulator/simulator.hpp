@@ -72,7 +72,7 @@ struct Setup {
     Vec3 low{}, high{}, gravity{};
     std::uint32_t iterations = 4;
     float relaxation = 0.0F, tensile = 0.0F, viscosity = 0.0F, vorticity = 0.0F, cfl = 0.0F, tension = 0.0F,
-          adhesion = 0.0F;
+          adhesion = 0.0F, overshoot = 0.0F;
     std::vector<Sphere> spheres;
     std::vector<Capsule> capsules;
     std::vector<Box> boxes;

@@ -65,7 +65,7 @@ class TexelView {
 
 /// What the status buffer holds after a step.
 struct StepStatus {
-    std::uint32_t faults, most_neighbours, speed_bits, move_bits, gone, stillborn;
+    std::uint32_t faults, most_neighbours, speed_bits, move_bits, gone, stillborn, fullest;
 };
 
 inline constexpr VkDeviceSize kPushBytes = sizeof(BodyPush) * kMaxBodies;

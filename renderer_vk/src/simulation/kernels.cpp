@@ -4,6 +4,7 @@
 #include <shaders/simulation_born_comp.h>
 #include <shaders/simulation_curl_comp.h>
 #include <shaders/simulation_delta_comp.h>
+#include <shaders/simulation_depth_comp.h>
 #include <shaders/simulation_finish_comp.h>
 #include <shaders/simulation_lambda_comp.h>
 #include <shaders/simulation_neighbours_comp.h>
@@ -67,6 +68,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
         {Kernel::ScanSums, simulation_scan_sums_comp, {{Cells}, {Sums}}},
         {Kernel::ScanBlocks, simulation_scan_blocks_comp, {{Sums}}},
         {Kernel::ScanCells, simulation_scan_cells_comp, {{Cells}, {Sums}}},
+        {Kernel::Depth, simulation_depth_comp, {{Cells}, {Status}}, {features.depth_axis}},
         {Kernel::Scatter, simulation_scatter_comp, {{Arrival}, {Cells}, {IdentityIn}, {Bucket}}},
         {Kernel::Order,
          simulation_order_comp,
@@ -124,8 +126,8 @@ Slot exchanged(Slot slot) {
 }
 
 constexpr std::array<const char*, kKernels> kNames{
-    "predict", "scan_sums", "scan_blocks", "scan_cells", "scatter", "order",  "neighbours", "lambda",
-    "measure", "delta",     "velocity",    "curl",       "surface", "finish", "retire",     "born"};
+    "predict", "scan_sums", "scan_blocks", "scan_cells", "depth",   "scatter", "order",  "neighbours", "lambda",
+    "measure", "delta",     "velocity",    "curl",       "surface", "finish",  "retire", "born"};
 
 void write(const Device& device, VkDescriptorSet set, std::uint32_t binding, Use use,
            const SimulationBuffers& buffers) {

@@ -19,6 +19,7 @@ enum class Kernel : std::uint8_t {
     ScanSums,
     ScanBlocks,
     ScanCells,
+    Depth,
     Scatter,
     Order,
     Neighbours,
@@ -40,10 +41,11 @@ inline constexpr std::uint32_t kScanBlock = 512;
 
 /// What a scene needs beyond the plain step. A pass without it is compiled without it.
 struct Features {
-    bool confined = false;  ///< vorticity confinement
-    bool fields = false;    ///< force fields
-    bool bodies = false;    ///< bodies that are pushed
-    bool tension = false;   ///< surface tension or adhesion
+    bool confined = false;         ///< vorticity confinement
+    bool fields = false;           ///< force fields
+    bool bodies = false;           ///< bodies that are pushed
+    bool tension = false;          ///< surface tension or adhesion
+    std::uint32_t depth_axis = 1;  ///< along which depth is measured, where it is
 };
 
 [[nodiscard]] const char* kernelName(Kernel kernel);

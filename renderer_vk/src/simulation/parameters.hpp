@@ -28,6 +28,10 @@ struct Grid {
     std::uint32_t x = 0, y = 0, z = 0;
     double side = 0.0;  ///< of a cell, metres: the support and what rounding may take from it
     [[nodiscard]] std::uint32_t cells() const { return x * y * z; }
+    /// Along that axis.
+    [[nodiscard]] std::uint32_t columns(std::uint32_t axis) const {
+        return axis == 0 ? y * z : axis == 1 ? x * z : x * y;
+    }
 };
 /// Not many more cells than particles, and at most kMostCells. The settings have been checked.
 inline constexpr std::uint32_t kMostCells = 1U << 22;

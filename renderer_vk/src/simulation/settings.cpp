@@ -105,7 +105,8 @@ Status checkSettings(const SimulationSettings& s) {
     } ranges[] = {{"radius", s.radius, 1e-5F, 1e3F},        {"relaxation", s.relaxation, 1e-6F, 1e3F},
                   {"tensile", s.tensile, 0.0F, 1.0F},       {"viscosity", s.viscosity, 0.0F, 1.0F},
                   {"vorticity", s.vorticity, 0.0F, 100.0F}, {"tension", s.tension, 0.0F, 100.0F},
-                  {"adhesion", s.adhesion, 0.0F, 100.0F},   {"cfl", s.cfl, 0.01F, 0.5F}};
+                  {"adhesion", s.adhesion, 0.0F, 100.0F},   {"cfl", s.cfl, 0.01F, 0.5F},
+                  {"overshoot", s.overshoot, 0.0F, 1.0F}};
     for (const auto& range : ranges) {
         if (Status status = checkRange(range.name, range.value, range.low, range.high); !status) {
             return status;

@@ -28,6 +28,7 @@ struct SimulationSettings {
     float tension = 0.0F;                  ///< gamma of Akinci et al. 2013, m/s^2; water about 1
     float adhesion = 0.0F;                 ///< beta of the same, towards walls
     float cfl = 0.4F;                      ///< supports that a particle may fly in one step
+    float overshoot = 0.17F;  ///< most that g H dt^2 / (d^2 iterations) may be, H the depth; 0: not held to
     std::vector<Solid> solids;
     SourceSettings sources;
     std::vector<Body> bodies;

@@ -29,11 +29,12 @@ struct StepReport {
     std::uint32_t born = 0,
                   blocked = 0;  ///< of those that were to be born, and could not because of what was in the way
     std::uint32_t drained = 0;
+    double depth = 0.0;  ///< of the deepest fluid, m, where steps are held to it; else 0
 };
 /// What it took to get from one time to another.
 struct AdvanceReport {
     std::uint32_t steps = 0;
-    std::uint32_t split = 0;  ///< steps that were taken again in halves, because something flew too far
+    std::uint32_t split = 0;  ///< steps that were taken again shorter: something flew too far, or the fluid is too deep
     double shortest = 0.0;    ///< step, seconds
     double speed = 0.0;       ///< greatest of all steps, m/s
     std::uint32_t most_neighbours = 0;

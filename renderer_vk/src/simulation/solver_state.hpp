@@ -38,6 +38,7 @@ struct Solver::State {
     bool odd = false;               ///< In and Out have changed places
     bool measurable = false;        ///< the sorted buffers are those of the state
     double speed = 0.0;             ///< m/s, of the fastest particle
+    double depth = 0.0;             ///< m, of the last step; 0: not known yet, or not held to
 
     /// A drain may have taken all, and an emitter not have given any yet.
     [[nodiscard]] bool ready() const { return counts.living > 0 || (changing() && planned > 0); }

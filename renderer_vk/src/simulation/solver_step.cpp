@@ -8,6 +8,7 @@
 
 #include "device/commands.hpp"
 #include "device/one_shot.hpp"
+#include "simulation/depth.hpp"
 #include "simulation/solver_state.hpp"
 
 namespace sluice::vk {
@@ -49,6 +50,9 @@ void Solver::State::record(VkCommandBuffer commands) {
     run(commands, Kernel::ScanSums, blocks);
     run(commands, Kernel::ScanBlocks, 1);
     run(commands, Kernel::ScanCells, blocks);
+    if (heldToDepth(settings)) {
+        run(commands, Kernel::Depth, groupsOf(grid.columns(deepestAxis(settings)), kGroup));
+    }
     run(commands, Kernel::Scatter, entries);
     run(commands, Kernel::Order, entries);
     run(commands, Kernel::Neighbours, all);
@@ -126,7 +130,8 @@ Result<StepReport> Solver::State::attempt(double seconds) {
                               status.most_neighbours,
                               counts.births - status.stillborn,
                               status.stillborn,
-                              status.gone};
+                              status.gone,
+                              depthOf(settings, grid, status.fullest)};
         }
         // The lists were cut short, so nothing of this step counts. A quarter of room, so that it does not happen at
         // every step of a fluid that is being pressed together.
@@ -150,6 +155,7 @@ void Solver::State::keep(const StepReport& report) {
         pushBody(settings.bodies[i], moving[i], impulse.linear, impulse.angular, report.seconds);
     }
     bodies = moving;
+    depth = report.depth;
     speed = std::max(report.speed, fastestPoint(settings.bodies, bodies));
     time += report.seconds;
     moved = counts.living;

@@ -6,6 +6,7 @@ list(APPEND SLUICE_VK_SOURCES
     src/simulation/buffers.cpp
     src/simulation/kernels.cpp
     src/simulation/check_sources.cpp
+    src/simulation/depth.cpp
     src/simulation/parameters.cpp
     src/simulation/settings.cpp
     src/simulation/solid.cpp

@@ -131,7 +131,7 @@ struct Simulation {
     float frames_per_second = 30.0F;
     std::uint32_t steps_per_frame = 8;  ///< at least; fast fluid takes more; 4 let deep fluid gain energy
     std::uint32_t iterations = 4;
-    float relaxation = 0.1F, tensile = 0.0005F, viscosity = 0.02F, vorticity = 0.0F, cfl = 0.4F;
+    float relaxation = 0.1F, tensile = 0.0005F, viscosity = 0.02F, vorticity = 0.0F, cfl = 0.4F, overshoot = 0.17F;
     float tension = 0.0F, adhesion = 0.0F;  ///< m/s^2
     float jitter = 0.05F;                   ///< radii that a particle may be off its lattice at the start
     std::uint32_t collide_with_engine = 1;  ///< floor, pillars, crates and basins are solids too
