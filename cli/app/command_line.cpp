@@ -130,6 +130,12 @@ void addRender(Line& line) {
                                        fmt::format("sets of shared images in the ring, 1 to {};\n{} if not given",
                                                    SLUICE_MAX_IMAGE_SETS, o.image_sets))
         ->type_name("N");
+    c.add_option_function<std::string>("--frames-in-flight", into(o.frames_in_flight, parseFramesInFlight),
+                                       "how far a simulation may run ahead of the\npictures, 1 to 3; 1 if not given")
+        ->type_name("N");
+    c.add_option_function<std::string>("--seed", into(o.seed, wholeNumber("--seed")),
+                                       "seed of a simulation's start; 1 if not given")
+        ->type_name("N");
     c.add_option_function<std::string>("--view", into(o.view, oneOf("--view", kViewNames)),
                                        "what to show: fluid, depth, normal or\nthickness")
         ->type_name("VIEW");

@@ -28,6 +28,21 @@ Json lineJson(const std::string& line) {
     return {{"pass", line.substr(2, name_end - 2)}, {"kept", line[0] == '+'}, {"reason", line.substr(reason)}};
 }
 
+Result<std::uint32_t> particlesOfFirstFrame(const RenderInputs& inputs) {
+    if (inputs.live) {
+        return inputs.live->count();
+    }
+    const scene::ParticleSource& source = inputs.scene.particles;
+    const Result<std::filesystem::path> path = particlePath(source, inputs.frames.first);
+    const Result<particles::ParticleSet> set =
+        path ? loadParticles(source, path.value()) : Result<particles::ParticleSet>{path.error()};
+    if (!set) {
+        return set.error();
+    }
+    warnOfRadius(inputs.scene_file, source, set.value(), path.value());
+    return static_cast<std::uint32_t>(set.value().count());
+}
+
 void print(const ExplainOptions& options, const SluiceSceneNeeds& needs, const std::vector<std::string>& lines) {
     if (!options.json) {
         fmt::print("{}: {}x{}, {} particles\n", options.scene, needs.width, needs.height, needs.particle_count);
@@ -65,14 +80,11 @@ int explain(const ExplainOptions& options) {
         return kExitBadInput;
     }
     const scene::Scene& scene = inputs.value().scene;
-    const Result<std::filesystem::path> path = particlePath(scene.particles, inputs.value().frames.first);
-    const Result<particles::ParticleSet> set =
-        path ? loadParticles(scene.particles, path.value()) : Result<particles::ParticleSet>{path.error()};
-    if (!set) {
-        logError(set.error());
+    const Result<std::uint32_t> particles = particlesOfFirstFrame(inputs.value());
+    if (!particles) {
+        logError(particles.error());
         return kExitBadInput;
     }
-    warnOfRadius(options.scene, scene.particles, set.value(), path.value());
     const Result<host::PluginLibrary> library = loadPlugin(options.plugin);
     if (!library) {
         logError(library.error());
@@ -80,8 +92,7 @@ int explain(const ExplainOptions& options) {
     }
     const std::uint32_t outputs =
         options.layers ? SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS) : 0;
-    const SluiceSceneNeeds needs =
-        sceneNeeds(scene, inputs.value().size, static_cast<std::uint32_t>(set.value().count()), outputs);
+    const SluiceSceneNeeds needs = sceneNeeds(scene, inputs.value().size, particles.value(), outputs);
     std::vector<std::string> lines;
     SluiceError error{};
     error.struct_size = sizeof(error);

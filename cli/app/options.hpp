@@ -30,6 +30,8 @@ struct RenderOptions {
     std::optional<host::HostFault> host_fault;
     bool isolate = false;
     double deadline_s = 10.0;  ///< of a CPU wait for the renderer
+    std::uint64_t seed = 1;    ///< of a simulation's start
+    std::uint32_t frames_in_flight = 1;
 };
 
 struct ProbeOptions {

@@ -69,6 +69,14 @@ Result<std::uint32_t> parseImageSets(std::string_view text) {
     return static_cast<std::uint32_t>(sets);
 }
 
+Result<std::uint32_t> parseFramesInFlight(std::string_view text) {
+    const std::int64_t frames = whole(text);
+    if (frames < 1 || frames > SLUICE_MAX_FRAMES_IN_FLIGHT) {
+        return badValue("--frames-in-flight", fmt::format("1 to {}", SLUICE_MAX_FRAMES_IN_FLIGHT), text);
+    }
+    return static_cast<std::uint32_t>(frames);
+}
+
 Result<float> parseRadius(std::string_view text) {
     float radius = 0.0F;
     const char* end = text.data() + text.size();
@@ -112,7 +120,8 @@ Result<host::FaultPlan> parseFault(std::string_view text) {
             : whole(text.substr(at + 1, equals == std::string_view::npos ? equals : equals - at - 1));
     const std::int64_t value = equals == std::string_view::npos ? 0 : whole(text.substr(equals + 1));
     const std::string_view side = slash == std::string_view::npos ? std::string_view{} : what.substr(slash + 1);
-    const bool side_known = slash == std::string_view::npos || side == "to-renderer" || side == "to-host";
+    const bool side_known =
+        slash == std::string_view::npos || side == "to-renderer" || side == "to-host" || side == "simulation";
     if (kind == host::kFaultNames.end() || frame < 1 || value < 0 || !side_known) {
         std::string kinds;
         for (const auto& [one, ignored] : host::kFaultNames) {
@@ -121,7 +130,8 @@ Result<host::FaultPlan> parseFault(std::string_view text) {
         for (const auto& [one, ignored] : host::kHostFaultNames) {
             kinds += fmt::format(", {}", one);
         }
-        return badValue("--fault", fmt::format("KIND[/to-renderer|/to-host]@FRAME[=VALUE], KIND one of {}", kinds),
+        return badValue("--fault",
+                        fmt::format("KIND[/to-renderer|/to-host|/simulation]@FRAME[=VALUE], KIND one of {}", kinds),
                         text);
     }
     host::FaultPlan plan;
@@ -131,6 +141,9 @@ Result<host::FaultPlan> parseFault(std::string_view text) {
     const bool about_waits = plan.kind == host::FaultKind::SkipWait || plan.kind == host::FaultKind::EarlyReuse;
     plan.direction =
         side == "to-host" || (side.empty() && about_waits) ? SLUICE_RENDERER_TO_HOST : SLUICE_HOST_TO_RENDERER;
+    if (side == "simulation") {
+        plan.direction = SLUICE_SIMULATION_TO_RENDERER;
+    }
     if (!host::possible(plan.kind, plan.direction)) {
         return badValue("--fault", fmt::format("{} in the other direction", name), text);
     }

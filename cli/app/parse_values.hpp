@@ -18,6 +18,8 @@ namespace sluice::cli {
 [[nodiscard]] Result<scene::Size> parseSize(std::string_view text);
 /// 1 to SLUICE_MAX_IMAGE_SETS.
 [[nodiscard]] Result<std::uint32_t> parseImageSets(std::string_view text);
+/// 1 to SLUICE_MAX_FRAMES_IN_FLIGHT.
+[[nodiscard]] Result<std::uint32_t> parseFramesInFlight(std::string_view text);
 /// Digits alone, up to 2^64-1; `what` names the option.
 [[nodiscard]] Result<std::uint64_t> parseWhole(std::string_view what, std::string_view text);
 /// Metres, above 0.
@@ -27,7 +29,8 @@ namespace sluice::cli {
 [[nodiscard]] bool namesHostFault(std::string_view text);
 /// KIND@FRAME, with =VALUE behind it where the kind has one.
 [[nodiscard]] Result<host::HostFault> parseHostFault(std::string_view text);
-/// KIND@FRAME, KIND/to-renderer@FRAME or KIND/to-host@FRAME, with =VALUE behind it where the kind has one.
+/// KIND@FRAME, KIND/to-renderer@FRAME, KIND/to-host@FRAME or KIND/simulation@FRAME, with =VALUE behind it where the
+/// kind has one.
 [[nodiscard]] Result<host::FaultPlan> parseFault(std::string_view text);
 /// Seconds, above 0 and at most 3600.
 [[nodiscard]] Result<double> parseDeadline(std::string_view text);

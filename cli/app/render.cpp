@@ -109,7 +109,13 @@ int renderChecked(const RenderOptions& options, RenderInputs inputs) {
         logError(status.error());
         return kExitInternal;
     }
-    Run run{options, std::move(inputs), std::move(session).value(), {}, {}, {}, {}};
+    Run run{options, std::move(inputs), std::move(session).value(), {}, {}, {}, {}, {}};
+    if (run.inputs.live) {
+        run.live.emplace(*run.inputs.live, run.inputs.frames);
+        run.summary.particles = run.inputs.live->count();
+        run.summary.radius = run.inputs.live->settings.radius;
+        log(SLUICE_LOG_INFO, sayLive(options.scene, *run.inputs.live));
+    }
     run.summary.scene = options.scene;
     run.summary.frames = run.inputs.frames;
     run.summary.size = run.inputs.size;

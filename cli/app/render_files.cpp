@@ -30,6 +30,9 @@ FileRoles inputRoles(const RenderOptions& options, const RenderInputs& inputs) {
             roles.add("the renderer plugin", place);
         }
     }
+    if (inputs.live) {
+        return roles;
+    }
     std::filesystem::path last;
     for (std::int64_t frame = inputs.frames.first; frame <= inputs.frames.last && !interrupted(); ++frame) {
         const Result<std::filesystem::path> path = particlePath(inputs.scene.particles, frame);

@@ -13,6 +13,25 @@
 
 namespace sluice::cli {
 
+namespace {
+
+Status startLive(RenderInputs& inputs, const RenderOptions& options) {
+    if (inputs.frames.first < 1) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "--frames",
+                     "expected frames from 1, found 0: the scene simulates its fluid", "frame 1 is the start"};
+    }
+    Result<LiveFluid> live = liveFluid(inputs.scene, options.seed, options.frames_in_flight);
+    if (!live) {
+        Error error = live.error();
+        error.thing = options.scene + ": " + error.thing;
+        return error;
+    }
+    inputs.live.emplace(std::move(live).value());
+    return {};
+}
+
+}  // namespace
+
 Result<RenderInputs> readScene(const RenderOptions& options) {
     Result<scene::Scene> read = scene::loadScene(options.scene);
     if (!read) {
@@ -27,14 +46,20 @@ Result<RenderInputs> readScene(const RenderOptions& options) {
     if (options.view) {
         inputs.scene.fluid.view = *options.view;
     }
+    inputs.frames = options.frames.value_or(inputs.scene.frames);
+    inputs.size = options.size.value_or(inputs.scene.size);
+    if (simulatesLive(inputs.scene)) {
+        if (Status status = startLive(inputs, options); !status) {
+            return status.error();
+        }
+        return inputs;
+    }
     if (inputs.scene.particles.path.empty()) {
         return Error{
             SLUICE_ERROR_INVALID_ARGUMENT, options.scene, "/particles/path: the scene names no particle file",
             "give --particles FILE, or set \"particles\": {\"path\": \"FILE\"} in the scene; to make a file: sluice "
             "generate pool -o pool.pos"};
     }
-    inputs.frames = options.frames.value_or(inputs.scene.frames);
-    inputs.size = options.size.value_or(inputs.scene.size);
     return inputs;
 }
 
@@ -95,6 +120,9 @@ Status checkInputs(RenderInputs& inputs, bool progress) {
             return map.error();
         }
         inputs.environment = std::move(map).value();
+    }
+    if (inputs.live) {
+        return {};
     }
     const bool sequence = particles::Sequence{inputs.scene.particles.path}.numbered();
     Progress bar(sequence ? static_cast<std::uint64_t>(inputs.frames.count()) : 1, progress);

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "app/live_fluid.hpp"
 #include "app/options.hpp"
 #include "image/environment.hpp"
 #include "sluice/particles/particles.hpp"
@@ -22,16 +23,18 @@ struct LoadedParticles {
 
 struct RenderInputs {
     std::string scene_file;  ///< for messages
-    scene::Scene scene;      ///< it names particles
+    scene::Scene scene;      ///< it names particles, or `live` has some
     scene::FrameRange frames;
     scene::Size size;
     std::optional<Environment> environment;
     /// The particles of the first frame, kept from the check so that they are not read twice; the frame takes them.
     std::optional<LoadedParticles> first;
     std::vector<host::MovingBody> bodies;  ///< of the frame in hand
+    std::optional<LiveFluid> live;  ///< in the place of particle files
 };
 
-/// The scene with the command line's overrides. Reads the scene file only. A scene without particles is an error.
+/// The scene with the command line's overrides. Reads the scene file only. A scene without particles whose simulation
+/// has no fluid either is an error.
 [[nodiscard]] Result<RenderInputs> readScene(const RenderOptions& options);
 
 /// Reads the environment map and every particle file once, so that a bad file is found before the first output. Warns

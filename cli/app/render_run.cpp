@@ -103,6 +103,7 @@ Status writeFiles(Run& run, const FrameResult& result, std::int64_t frame) {
 
 void account(Run& run, const FrameResult& result) {
     RunSummary& s = run.summary;
+    s.logic.ms.push_back(result.logic_ms);
     s.draw.ms.push_back(result.draw_ms);
     std::vector<TraceRecord> records = run.session.trace->drain();
     addCopies(s.copies, records);
@@ -123,6 +124,18 @@ void account(Run& run, const FrameResult& result) {
     }
 }
 
+/// A fluid that could not flow on stands still in the pictures from there on, and the run says so once.
+void noteSimulation(Run& run) {
+    if (!run.live || !run.session.fluid) {
+        return;
+    }
+    if (const std::optional<std::string> why = run.live->end(*run.session.fluid)) {
+        run.summary.problems.push_back(*why);  // the plugin has logged it
+        run.summary.exit_code = kExitNoFluid;
+    }
+    run.summary.live = run.live->summary();
+}
+
 /// Draws and writes every frame. The returned code is that of the first thing that ended the run, or 0.
 int renderFrames(Run& run) {
     Progress progress(static_cast<std::uint64_t>(run.inputs.frames.count()), !run.options.quiet);
@@ -131,7 +144,11 @@ int renderFrames(Run& run) {
             return kExitInterrupted;
         }
         progress.update(run.summary.frames_written, fmt::format("frame {}", frame));
-        if (const Status status = updateParticles(run, frame); !status) {
+        if (run.live) {
+            if (const Status status = run.live->begin(run.session.fluid.get(), frame); !status) {
+                noteProblem(run, status.error());
+            }
+        } else if (const Status status = updateParticles(run, frame); !status) {
             logError(status.error());
             return kExitBadInput;
         }
@@ -140,6 +157,7 @@ int renderFrames(Run& run) {
             noteProblem(run, *result.failure);
         }
         account(run, result);
+        noteSimulation(run);
         if (const Status status = writeFiles(run, result, frame); !status) {
             logError(status.error());
             return kExitInternal;

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <vector>
 
+#include "app/live_run.hpp"
 #include "app/options.hpp"
 #include "app/render_inputs.hpp"
 #include "app/render_session.hpp"
@@ -23,6 +25,7 @@ struct Run {
     PassStatistics passes;
     std::vector<TraceRecord> records;  ///< kept only when a trace file is wanted
     std::filesystem::path particle_file;
+    std::optional<LiveRun> live;  ///< in the place of particle files
 };
 
 /// Starts the renderer, draws and writes every frame. The exit code of the first thing that ended the run, or 0.

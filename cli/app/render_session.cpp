@@ -7,6 +7,7 @@
 
 #include "app/log.hpp"
 #include "app/plugin_path.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
 
 namespace sluice::cli {
@@ -119,7 +120,8 @@ Result<RenderSession> createSession(const RenderInputs& inputs) {
                          nullptr,
                          std::nullopt,
                          nullptr,
-                         {}};
+                         {},
+                         1};
 }
 
 Status startLedger(RenderSession& session, const RenderOptions& options) {
@@ -183,6 +185,13 @@ Status startFluid(RenderSession& session, const RenderInputs& inputs, const Rend
             return status;
         }
     }
+    if (inputs.live) {
+        const SluiceSimulation simulation = inputs.live->view();
+        if (Status status = session.fluid->setSimulation(&simulation); !status) {
+            session.fluid.reset();
+            return status;
+        }
+    }
     return {};
 }
 
@@ -191,6 +200,23 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
     FrameResult result;
     const bool layers = !options.layers.empty();
     const SluiceCamera camera = scene::cameraAt(inputs.scene, frame, inputs.size);
+    const std::uint64_t logic_began = monotonicNanoseconds();
+    result.logic_ms = timed([&] {
+        // From frame 1 on, whichever is drawn first, so that every range of frames shows the same.
+        for (; session.animated < frame; ++session.animated) {
+            session.engine.animate(1.0F / inputs.scene.simulation.frames_per_second);
+        }
+    });
+    if (!inputs.scene.engine.banners.empty()) {
+        auto thought = sized<SluiceTraceEvent>();
+        thought.kind = SLUICE_TRACE_MARK;
+        thought.track = SLUICE_TRACK_HOST_CPU;
+        thought.begin_ns = logic_began;
+        thought.duration_ns = monotonicNanoseconds() - logic_began;
+        thought.frame = static_cast<std::uint64_t>(frame);
+        thought.name = "host animation";
+        session.trace->record(thought);
+    }
     const std::uint64_t draw_began = monotonicNanoseconds();
     result.draw_ms = timed([&] {
         session.screen.bind();
@@ -207,6 +233,7 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
         input.fluid = inputs.scene.fluid;
         input.outputs = layerOutputs(options);
         input.draw_began_ns = draw_began;
+        input.simulation = inputs.live ? static_cast<std::uint64_t>(frame) : 0;
         Status status;
         result.submit_ms = timed([&] { status = session.fluid->submit(session.screen, input); });
         if (status) {

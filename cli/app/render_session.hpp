@@ -36,6 +36,7 @@ struct RenderSession {
     std::optional<host::PluginLibrary> library;
     std::unique_ptr<host::FluidHost> fluid;  ///< null: frames without fluid
     std::string timeline_reason;             ///< why the timeline in use was chosen
+    std::int64_t animated = 1;               ///< the frame that the engine's own physics has come to
 };
 
 /// Context, screen and engine. The context is current from here on.
@@ -56,6 +57,7 @@ struct FrameResult {
     bool with_fluid = false;
     std::optional<Error> failure;  ///< why there is no fluid, if there should be
     std::optional<SluiceFrameStats> stats;
+    double logic_ms = 0.0;                                      ///< of the engine's own physics
     double draw_ms = 0.0, submit_ms = 0.0, composite_ms = 0.0;  ///< time of the calls on the host's thread
 };
 

@@ -23,7 +23,7 @@ std::string_view encodingName(std::uint32_t encoding) {
 }
 
 std::vector<const HostRow*> hostRows(const RunSummary& s) {
-    std::vector<const HostRow*> rows{&s.draw};
+    std::vector<const HostRow*> rows{&s.logic, &s.draw};
     if (s.has_renderer) {
         rows.insert(rows.end(), {&s.submit, &s.composite, &s.wait});
     }
@@ -173,6 +173,9 @@ std::string summaryText(const RunSummary& s) {
     } else {
         text += "renderer  none: frames without fluid\n";
     }
+    if (s.live) {
+        text += liveText(*s.live);
+    }
     text += "\n" + passTable(s) + "\n";
     text +=
         fmt::format("CPU copies of shared images in the frame loop: {} bytes. Read back for files: {}. Uploaded: {}.\n",
@@ -220,6 +223,7 @@ nlohmann::ordered_json summaryJson(const RunSummary& s) {
               {"uploaded", s.uploaded_bytes}}},
             {"validation_messages", s.validation_messages},
             {"trace_events_dropped", s.trace_dropped},
+            {"simulation", s.live ? liveJson(*s.live) : Json(nullptr)},
             {"ledger", ledgerJson(s.ledger)},
             {"files", s.files},
             {"problems", s.problems},

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "report/live_report.hpp"
 #include "report/statistics.hpp"
 #include "sluice/ledger/finding.hpp"
 #include "sluice/ledger/live.hpp"
@@ -35,13 +36,14 @@ struct RunSummary {
     SluiceRendererInfo info{};
     std::string timeline_reason;
     std::vector<PassRow> passes;
-    HostRow draw{"host draw", {}}, submit{"host capture and submit", {}}, composite{"host wait and composite", {}},
-        wait{"of which waiting", {}}, write{"output files", {}};
+    HostRow logic{"host animation", {}}, draw{"host draw", {}}, submit{"host capture and submit", {}},
+        composite{"host wait and composite", {}}, wait{"of which waiting", {}}, write{"output files", {}};
     CopyBytes copies;
     std::uint64_t uploaded_bytes = 0, trace_dropped = 0;
     std::uint32_t validation_messages = 0;
     std::vector<std::string> files, problems;
     std::optional<LedgerSummary> ledger;  ///< empty: it was off
+    std::optional<LiveSummary> live;      ///< empty: the particles came from files
     int exit_code = 0;
 };
 

@@ -95,6 +95,13 @@ void visitEngine(Visitor& v, host::EngineScene& e) {
         c.number("size", crate.size, kPositiveLength);
         c.number("turn_degrees", crate.turn_degrees, kDegrees);
     });
+    v.list("banners", e.banners, [](auto& b, host::Banner& banner) {
+        b.numbers("from", banner.from, kAnyLength);
+        b.numbers("to", banner.to, kAnyLength);
+        b.number("drop", banner.drop, kPositiveLength);
+        b.integer("cells", banner.cells, 1, host::kMostBannerCells);
+        b.integer("iterations", banner.iterations, 1, 1000);
+    });
     v.list("basins", e.basins, [](auto& b, host::Basin& basin) {
         b.numbers("centre", basin.centre, kAnyLength);
         b.number("half_x", basin.half_x, kPositiveLength);

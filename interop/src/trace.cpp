@@ -17,18 +17,21 @@ namespace {
 // Keeps the counters that producers fight over apart from those of the consumer; 64 on every CPU we build for.
 constexpr std::size_t kCacheLine = 64;
 
+bool timelineEvent(const SluiceTraceEvent& event) {
+    return event.kind == SLUICE_TRACE_SIGNAL || event.kind == SLUICE_TRACE_WAIT;
+}
+
 /// Events of kinds that this side does not know cannot be kept truthfully.
 bool understood(const SluiceTraceEvent& event) {
-    const bool timeline = event.kind == SLUICE_TRACE_SIGNAL || event.kind == SLUICE_TRACE_WAIT;
     return event.kind < SLUICE_TRACE_KIND_COUNT && event.track < SLUICE_TRACK_COUNT &&
-           (!timeline || event.direction <= SLUICE_RENDERER_TO_HOST);
+           (!timelineEvent(event) || event.direction <= SLUICE_SIMULATION_TO_RENDERER);
 }
 
 TraceRecord toRecord(const SluiceTraceEvent& event) {
     TraceRecord record{};
     record.kind = static_cast<SluiceTraceKind>(event.kind);
     record.track = static_cast<SluiceTrack>(event.track);
-    record.direction = static_cast<SluiceDirection>(event.direction & 1U);
+    record.direction = static_cast<SluiceDirection>(timelineEvent(event) ? event.direction : event.direction & 1U);
     record.begin_ns = event.begin_ns;
     record.duration_ns = event.duration_ns;
     record.frame = event.frame;

@@ -21,9 +21,10 @@ constexpr int kProcess = 1;
 
 constexpr std::array<std::string_view, SLUICE_TRACE_KIND_COUNT> kKindNames{"signal", "wait", "acquire",  "release",
                                                                            "submit", "pass", "cpu copy", "mark"};
-constexpr std::array<std::string_view, SLUICE_TRACK_COUNT> kTrackNames{"host CPU", "host GL", "bridge", "renderer CPU",
-                                                                       "renderer queue"};
-constexpr std::array<std::string_view, 2> kDirectionNames{"host to renderer", "renderer to host"};
+constexpr std::array<std::string_view, SLUICE_TRACK_COUNT> kTrackNames{"host CPU",     "host GL",        "bridge",
+                                                                       "renderer CPU", "renderer queue", "simulation"};
+constexpr std::array<std::string_view, 3> kDirectionNames{"host to renderer", "renderer to host",
+                                                          "simulation to renderer"};
 
 template <std::size_t Size, typename Enum>
 std::string_view nameOf(const std::array<std::string_view, Size>& names, Enum value) {

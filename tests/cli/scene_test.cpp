@@ -133,6 +133,10 @@ RC_GTEST_PROP(SceneFile, WritingAndReadingAreInverse, ()) {
         scene.engine.pillars.push_back({vector(-9000, 9000), thousandths(1, 900), thousandths(1, 9000)});
         scene.engine.crates.push_back({vector(-9000, 9000), thousandths(1, 900), thousandths(-9000, 9000)});
     }
+    if (*rc::gen::inRange(0, 2) == 1) {
+        scene.engine.banners.push_back(
+            {vector(-9000, 0), vector(1, 9000), thousandths(1, 900), *rc::gen::inRange(1U, 257U), 4});
+    }
     scene.frames.first = *rc::gen::inRange(0, 100);
     scene.frames.last = scene.frames.first + *rc::gen::inRange(0, 100);
     scene.size = {*rc::gen::inRange(1U, 16385U), *rc::gen::inRange(1U, 16385U)};

@@ -58,7 +58,11 @@ inline std::vector<Message> sampleMessages() {
             ShareImage{{}, image},
             RetireImage{{}, 2, 1},
             Canary{{}, 8, image},
-            Answer{{}, SLUICE_ERROR_IMPORT, "no memory"}};
+            Answer{{}, SLUICE_ERROR_IMPORT, "no memory"},
+            SetSimulation{{}, 1, sized<SluiceSimulation>()},
+            Simulate{{}, 5, 0.125},
+            SimulationStats{},
+            Returned{{}, SLUICE_OK, 0, "", sized<SluiceSimulationStats>()}};
 }
 
 }  // namespace sluice::isolate::test

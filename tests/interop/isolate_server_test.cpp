@@ -29,7 +29,8 @@ struct FakeRenderer {
     SluiceHostServices services{};
     std::atomic<std::uint64_t> host_value{0}, own_value{0};
     std::uint64_t signals = 0;
-    float last_colour = 0;
+    float last_colour = 0, last_solid = 0, last_velocity = 0;
+    double simulated = 0.0;
     int destroyed = 0;
 };
 FakeRenderer fake;
@@ -59,6 +60,23 @@ SluiceRendererApi fakeApi() {
     api.set_particles = [](SluiceRenderer* /*renderer*/, const SluiceParticles* particles,
                            SluiceError* /*error*/) -> SluiceResult {
         fake.last_colour = particles->colour != nullptr ? particles->colour[3 * particles->count - 1] : -1.0F;
+        return SLUICE_OK;
+    };
+    api.set_simulation = [](SluiceRenderer* /*renderer*/, const SluiceSimulation* simulation,
+                            SluiceError* /*error*/) -> SluiceResult {
+        fake.last_solid = simulation != nullptr ? simulation->solids[simulation->solid_count - 1].radius : -1.0F;
+        fake.last_velocity = simulation != nullptr && simulation->velocity != nullptr
+                                 ? simulation->velocity[3 * simulation->particle_count - 1]
+                                 : -1.0F;
+        return SLUICE_OK;
+    };
+    api.simulate = [](SluiceRenderer* /*renderer*/, std::uint64_t value, double seconds,
+                      SluiceError* /*error*/) -> SluiceResult {
+        fake.simulated = static_cast<double>(value) + seconds;
+        return SLUICE_OK;
+    };
+    api.simulation_stats = [](SluiceRenderer* /*renderer*/, SluiceSimulationStats* stats) -> SluiceResult {
+        stats->reached = 12;
         return SLUICE_OK;
     };
     api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
@@ -160,6 +178,36 @@ TEST_F(IsolateServer, CarriesCallsCallbacksMemoryAndCounters) {
     EXPECT_EQ(fake.signals, 4U) << "value by value";
     EXPECT_TRUE(end());
     EXPECT_EQ(fake.destroyed, 1);
+}
+
+TEST_F(IsolateServer, ASimulationCrossesWithItsArraysOrIsRefused) {
+    greet();
+    createRenderer(Answer{});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    SluiceSolid solid{};
+    solid.radius = 7.0F;
+    const std::array<float, 6> two{1, 2, 3, 4, 5, 6};
+    const UniqueFd memory =
+        sealedCopy({std::as_bytes(std::span(&solid, 1)), std::as_bytes(std::span(two)), std::as_bytes(std::span(two))})
+            .value();
+    SetSimulation call{{}, 1, sized<SluiceSimulation>()};
+    call.simulation.solid_count = 1;
+    call.simulation.particle_count = 2;
+    send(call, {memory.get()});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.last_solid, 7.0F);
+    EXPECT_EQ(fake.last_velocity, 6.0F);
+    send(Simulate{{}, 2, 0.5});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.simulated, 2.5);
+    send(SimulationStats{});
+    EXPECT_EQ(std::get<SluiceSimulationStats>(returned().filled).reached, 12U);
+    call.simulation.particle_count = 3;
+    send(call, {memory.get()});
+    EXPECT_EQ(returned().result, SLUICE_ERROR_INVALID_ARGUMENT) << "the memory is shorter than that";
+    send(SetSimulation{{}, 0, sized<SluiceSimulation>()});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.last_solid, -1.0F);
 }
 
 TEST_F(IsolateServer, ARefusedImageIsTheRenderersFailure) {

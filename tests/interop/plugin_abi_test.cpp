@@ -36,12 +36,11 @@ static_assert(sizeof(SluiceFluid) == 112);
 static_assert(sizeof(SluiceParticles) == 40);
 static_assert(sizeof(SluiceEnvironment) == 24);
 static_assert(sizeof(SluiceSceneNeeds) == 136);
-static_assert(sizeof(SluiceFrame) == 384);
 static_assert(sizeof(SluicePassStats) == 80);
 static_assert(sizeof(SluiceFrameStats) == 2600);
 static_assert(sizeof(SluiceCreateInfo) == 444);
 static_assert(sizeof(SluiceRendererInfo) == 516);
-static_assert(sizeof(SluiceRendererApi) == 144);
+static_assert(sizeof(SluiceRendererApi) == 176);
 static_assert(offsetof(SluiceError, code) == 4);
 static_assert(offsetof(SluiceError, message) == 8);
 static_assert(offsetof(SluiceTraceEvent, kind) == 4);
@@ -151,6 +150,12 @@ static_assert(offsetof(SluiceFrame, flags) == 36);
 static_assert(offsetof(SluiceFrame, camera) == 40);
 static_assert(offsetof(SluiceFrame, sky) == 192);
 static_assert(offsetof(SluiceFrame, fluid) == 268);
+static_assert(offsetof(SluiceFrame, simulation) == 384 && sizeof(SluiceFrame) == 392);
+static_assert(sizeof(SluiceSolid) == 64, "it stands in arrays");
+static_assert(offsetof(SluiceSimulation, gravity) == 36 && offsetof(SluiceSimulation, longest_step) == 72);
+static_assert(offsetof(SluiceSimulation, solids) == 88 && sizeof(SluiceSimulation) == 112);
+static_assert(offsetof(SluiceSimulationStats, busy_ns) == 48 && offsetof(SluiceSimulationStats, message) == 84);
+static_assert(sizeof(SluiceSimulationStats) == 592);
 static_assert(offsetof(SluicePassStats, name) == 0);
 static_assert(offsetof(SluicePassStats, nanoseconds) == 32);
 static_assert(offsetof(SluicePassStats, elements) == 40);
@@ -197,6 +202,10 @@ static_assert(offsetof(SluiceRendererApi, timeline_value) == 112);
 static_assert(offsetof(SluiceRendererApi, timeline_export) == 120);
 static_assert(offsetof(SluiceRendererApi, probe_format) == 128);
 static_assert(offsetof(SluiceRendererApi, destroy) == 136);
+static_assert(offsetof(SluiceRendererApi, set_simulation) == 144);
+static_assert(offsetof(SluiceRendererApi, simulate) == 152);
+static_assert(offsetof(SluiceRendererApi, simulation_wait) == 160);
+static_assert(offsetof(SluiceRendererApi, simulation_stats) == 168);
 }  // namespace layout
 #endif
 
@@ -209,10 +218,11 @@ static_assert(kSizePrefixed<SluiceHostServices> && kSizePrefixed<SluiceHostCapab
 static_assert(kSizePrefixed<SluiceRendererCapabilities> && kSizePrefixed<SluiceParticles>);
 static_assert(kSizePrefixed<SluiceEnvironment> && kSizePrefixed<SluiceSceneNeeds> && kSizePrefixed<SluiceFrame>);
 static_assert(kSizePrefixed<SluiceFrameStats> && kSizePrefixed<SluiceCreateInfo> && kSizePrefixed<SluiceRendererInfo>);
-static_assert(kSizePrefixed<SluiceRendererApi>);
+static_assert(kSizePrefixed<SluiceRendererApi> && kSizePrefixed<SluiceSimulation>);
+static_assert(kSizePrefixed<SluiceSimulationStats>);
 
 TEST(PluginAbi, EnumerationsKeepTheirValues) {
-    EXPECT_EQ(SLUICE_ABI_VERSION, 0x10000U);
+    EXPECT_EQ(SLUICE_ABI_VERSION, 0x10001U);
     EXPECT_EQ(SLUICE_MAKE_ABI(2U, 3U), 0x20003U);
     EXPECT_EQ(SLUICE_FORMAT_D24S8, 13);
     EXPECT_EQ(SLUICE_FORMAT_COUNT, 14);
@@ -222,6 +232,8 @@ TEST(PluginAbi, EnumerationsKeepTheirValues) {
     EXPECT_EQ(SLUICE_TIMELINE_UNSYNCHRONISED, 5);
     EXPECT_EQ(SLUICE_TRACE_MARK, 7);
     EXPECT_EQ(SLUICE_TRACK_RENDERER_QUEUE, 4);
+    EXPECT_EQ(SLUICE_TRACK_SIMULATION, 5);
+    EXPECT_EQ(SLUICE_SOLID_BOX, 3);
     EXPECT_EQ(SLUICE_VIEW_ECHO, 4);
     EXPECT_EQ(SLUICE_ERROR_INTERNAL, -9);
     EXPECT_EQ(SLUICE_TIMEOUT, 2);

@@ -202,7 +202,7 @@ TEST(TraceRing, CountsEventsItCannotUnderstandAsDropped) {
     track.track = SLUICE_TRACK_COUNT;
     trace.record(track);
     SluiceTraceEvent direction = event(SLUICE_TRACE_WAIT);
-    direction.direction = 2;
+    direction.direction = 3;
     trace.record(direction);
     EXPECT_EQ(trace.dropped(), 4U);
     EXPECT_TRUE(trace.drain().empty());

@@ -57,6 +57,25 @@ TEST(DeviceSelection, TakesTheDeviceOfTheHostAmongSeveral) {
     EXPECT_EQ(selectDevice(found, &llvmpipe).value(), 0U);
 }
 
+VkQueueFamilyProperties family(VkQueueFlags flags, std::uint32_t queues) {
+    VkQueueFamilyProperties out{};
+    out.queueFlags = flags;
+    out.queueCount = queues;
+    return out;
+}
+
+TEST(ComputeQueue, IsOneWithoutGraphicsOrASecondOneOrNone) {
+    constexpr VkQueueFlags kAll = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT | VK_QUEUE_TRANSFER_BIT;
+    const std::vector<VkQueueFamilyProperties> lavapipe{family(kAll, 1)};
+    EXPECT_EQ(chooseComputeQueue(lavapipe, 0), std::nullopt);
+    const std::vector<VkQueueFamilyProperties> several{family(kAll, 16)};
+    EXPECT_EQ(chooseComputeQueue(several, 0), (QueueChoice{0, 1}));
+    const std::vector<VkQueueFamilyProperties> nvidia{family(kAll, 16), family(VK_QUEUE_TRANSFER_BIT, 2),
+                                                      family(VK_QUEUE_COMPUTE_BIT, 8)};
+    EXPECT_EQ(chooseComputeQueue(nvidia, 0), (QueueChoice{2, 0}));
+    EXPECT_EQ(chooseComputeQueue({}, 0), std::nullopt);
+}
+
 TEST(DeviceSelection, LooksAtEveryUuidOfTheHost) {
     const std::vector<DeviceCandidate> found{candidate("NVIDIA H200", kNvidia, kNvidiaDriver)};
     const SluiceHostCapabilities host = hostWith({kLavapipe, kNvidia}, kNvidiaDriver);

@@ -39,6 +39,16 @@ Status checkScene(const EngineScene& scene) {
                                    b.half_z, b.height, b.wall));
         }
     }
+    for (std::size_t i = 0; i < scene.banners.size(); ++i) {
+        const Banner& b = scene.banners[i];
+        const float along = std::hypot(b.to[0] - b.from[0], b.to[1] - b.from[1], b.to[2] - b.from[2]);
+        if (!(along > 0.0F) || !(b.drop > 0.0F) || b.cells < 1 || b.cells > kMostBannerCells || b.iterations > 1000) {
+            return bad(fmt::format("banner {}", i),
+                       fmt::format("from {} m to and drop {} m must be positive, {} cells within 1..{}, {} iterations "
+                                   "at most 1000",
+                                   along, b.drop, b.cells, kMostBannerCells, b.iterations));
+        }
+    }
     return {};
 }
 

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/check_scene.hpp"
+#include "engine/cloth.hpp"
 #include "engine/colour.hpp"
 #include "engine/display_list.hpp"
 #include "engine/frame_state.hpp"
@@ -48,6 +49,7 @@ struct LegacyEngine::Impl {
     // The dome depends on the sky, which a caller may change from frame to frame; kept while it does not.
     std::optional<SluiceSky> dome_sky;
     DisplayList dome;
+    std::vector<Cloth> cloths;
 
     explicit Impl(EngineScene wanted);
     void drawSky(const SluiceCamera& camera, const SluiceSky& sky);
@@ -94,6 +96,9 @@ LegacyEngine::Impl::Impl(EngineScene wanted) : scene(std::move(wanted)) {
         crate.bind();
         emitCrates(scene);
     });
+    for (const Banner& banner : scene.banners) {
+        cloths.emplace_back(banner);
+    }
     contacts = DisplayList([this] { emitContacts(scene); });
     casters = DisplayList([this] { emitCasters(scene); });
     cube = DisplayList(emitCube);
@@ -229,6 +234,15 @@ void LegacyEngine::draw(const SluiceCamera& camera, const SluiceSky& sky, std::s
     impl_->drawContacts();
     impl_->objects.call();
     impl_->drawBodies(bodies);
+    for (const Cloth& cloth : impl_->cloths) {
+        cloth.emit();
+    }
+}
+
+void LegacyEngine::animate(float seconds) {
+    for (Cloth& cloth : impl_->cloths) {
+        cloth.step(seconds);
+    }
 }
 
 }  // namespace sluice::host

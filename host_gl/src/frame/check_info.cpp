@@ -79,6 +79,20 @@ Status checkPart(const SluiceParticles& particles) {
     return {};
 }
 
+Status checkPart(const SluiceSimulation* simulation) {
+    if (simulation == nullptr) {
+        return {};
+    }
+    if (Status status = checkAbiStruct(simulation, "simulation"); !status) {
+        return status;
+    }
+    const SluiceSimulation known = readAbiStruct(*simulation);
+    if (known.particle_count == 0 || known.position == nullptr || (known.solid_count > 0 && known.solids == nullptr)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation", "its particles or its solids are not there", ""};
+    }
+    return {};
+}
+
 Status checkPart(const SluiceEnvironment* environment) {
     if (environment == nullptr) {
         return {};

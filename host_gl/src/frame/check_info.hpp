@@ -16,6 +16,7 @@ namespace sluice::host {
 /// What can be known of a part of the scene without a renderer; what passes may be read as far as it says.
 [[nodiscard]] Status checkPart(const SluiceParticles& particles);
 [[nodiscard]] Status checkPart(const SluiceEnvironment* environment);
+[[nodiscard]] Status checkPart(const SluiceSimulation* simulation);
 /// The renderer's account must agree with what was asked for and with the images that it shared.
 [[nodiscard]] Status checkInfo(const SluiceRendererInfo& info, const FluidHostConfig& config, const ImageTable& images);
 

@@ -46,6 +46,30 @@ void KeptScene::keep(const SluiceEnvironment* environment) {
     environment_facts_ = known;
 }
 
+void KeptScene::keep(const SluiceSimulation* simulation) {
+    start_.clear();
+    if (simulation == nullptr) {
+        return;
+    }
+    const SluiceSimulation known = readAbiStruct(*simulation);
+    const std::size_t floats = std::size_t{known.particle_count} * 3;
+    solids_.assign(known.solids, known.solids + known.solid_count);
+    copy(start_velocity_, known.velocity, floats);
+    simulation_facts_ = known;
+    copy(start_, known.position, floats);
+}
+
+std::optional<SluiceSimulation> KeptScene::simulation() const {
+    if (start_.empty()) {
+        return std::nullopt;
+    }
+    SluiceSimulation simulation = simulation_facts_;
+    simulation.solids = solids_.data();
+    simulation.position = view(start_);
+    simulation.velocity = view(start_velocity_);
+    return simulation;
+}
+
 std::optional<SluiceParticles> KeptScene::particles() const {
     if (!has_particles_) {
         return std::nullopt;

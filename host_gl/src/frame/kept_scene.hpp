@@ -10,7 +10,7 @@
 
 namespace sluice::host {
 
-/// The particles and the environment that were set last. Costs one copy of the arrays a call.
+/// The particles, the environment and the simulation that were set last. Costs one copy of the arrays a call.
 class KeptScene {
   public:
     void keep(const SluiceParticles& particles);
@@ -18,10 +18,13 @@ class KeptScene {
     void keep(const SluiceEnvironment* environment);
     void forgetParticles() { has_particles_ = false; }
     void forgetEnvironment() { pixels_.clear(); }
+    /// nullptr: none.
+    void keep(const SluiceSimulation* simulation);
 
     /// Views of the copies, valid until the next keep(); empty when nothing was set.
     [[nodiscard]] std::optional<SluiceParticles> particles() const;
     [[nodiscard]] std::optional<SluiceEnvironment> environment() const;
+    [[nodiscard]] std::optional<SluiceSimulation> simulation() const;
 
   private:
     bool has_particles_ = false;
@@ -29,6 +32,9 @@ class KeptScene {
     std::vector<float> position_, velocity_, colour_;
     SluiceEnvironment environment_facts_{};
     std::vector<float> pixels_;
+    SluiceSimulation simulation_facts_{};
+    std::vector<SluiceSolid> solids_;
+    std::vector<float> start_, start_velocity_;  ///< start_ is empty without a simulation
 };
 
 }  // namespace sluice::host

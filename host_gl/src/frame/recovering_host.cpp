@@ -59,7 +59,8 @@ Status RecoveringHost::beginWithScene() {
             return status;
         }
     }
-    return {};
+    const auto simulation = scene_.simulation();
+    return simulation ? simulateAgain(*simulation) : Status{};
 }
 
 void RecoveringHost::drop(const char* part, const Error& refusal) {

@@ -66,7 +66,11 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment) override {
         return caught([&] { return give([&] { return life_->setEnvironment(environment); }, environment); });
     }
-    [[nodiscard]] Status submit(const Screen& screen, const FrameInput& input) override {
+    [[nodiscard]] Status setSimulation(const SluiceSimulation* simulation) override;
+    [[nodiscard]] Status simulate(std::uint64_t value, double seconds) override;
+    [[nodiscard]] Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) override;
+    [[nodiscard]] Result<SluiceSimulationStats> simulationStats() override;
+    [[nodiscard]] Status submit(const Screen& screen, const FrameInput& asked) override {
         return caught([&]() -> Status {
             ++without_fluid_;
             faults_.frameBegins();
@@ -76,6 +80,8 @@ class RecoveringHost final : public FluidHost {
             if (Status status = revive(); !status) {
                 return status;
             }
+            FrameInput input = asked;
+            input.simulation = simulatedHere(asked.simulation);
             Status status = life_->submit(screen, input);
             submitted_ = status ? base_ + life_->frame() : submitted_;
             return judged(std::move(status));
@@ -117,6 +123,10 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Status beginWithScene();
     /// A part of the scene that the new renderer refuses, as every one after it would, goes, and that is said.
     void drop(const char* part, const Error& refusal);
+    /// The simulation once more, from its initial state, which stands for the value asked for last.
+    [[nodiscard]] Status simulateAgain(const SluiceSimulation& simulation);
+    /// What the present renderer calls `value`; of what went with an earlier one, its initial state.
+    [[nodiscard]] std::uint64_t simulatedHere(std::uint64_t value) const;
     [[nodiscard]] Status replaceImages(std::uint32_t width, std::uint32_t height);
     template <typename Call, typename Value>
     [[nodiscard]] Status give(Call call, const Value& value);
@@ -137,7 +147,9 @@ class RecoveringHost final : public FluidHost {
     KeptScene scene_;
     SluiceRendererInfo info_{};  ///< of the present renderer, or else of the last
     std::unique_ptr<RendererLife> life_;
-    std::uint64_t base_ = 0;  ///< numbers that earlier renderers have spent
+    std::uint64_t base_ = 0;             ///< numbers that earlier renderers have spent
+    std::uint64_t asked_ = 0;            ///< last value of simulate
+    std::uint64_t simulation_base_ = 0;  ///< values that went with earlier renderers
     std::uint64_t submitted_ = 0;
     std::uint32_t renderers_ = 0;
     std::uint64_t without_fluid_ = 0;  ///< submits since the last composite

@@ -56,6 +56,17 @@ Result<SluiceFrameStats> checkedStats(Result<SluiceFrameStats> stats) {
     return stats;
 }
 
+Status checkSimulates(const SluiceRendererApi& api) {
+    if (api.set_simulation == nullptr || api.simulate == nullptr || api.simulation_wait == nullptr ||
+        api.simulation_stats == nullptr) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("renderer {}", api.name),
+                     fmt::format("serves ABI {}.{} and simulates nothing; that came with 1.1", api.abi_version >> 16U,
+                                 api.abi_version & 0xffffU),
+                     "use a newer plugin, or give it particles"};
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<Renderer> Renderer::create(const SluiceRendererApi& api, const SluiceHostServices& services,
@@ -113,6 +124,52 @@ Status Renderer::setEnvironment(const SluiceEnvironment* environment) const {
     auto said = sized<SluiceError>();
     const SluiceResult result = api_->set_environment(handle_, environment, &said);
     return statusOf("set_environment", result, said);
+}
+
+Status Renderer::setSimulation(const SluiceSimulation* simulation) const {
+    if (Status status = checkSimulates(*api_); !status) {
+        return status;
+    }
+    auto said = sized<SluiceError>();
+    const SluiceResult result = api_->set_simulation(handle_, simulation, &said);
+    return statusOf("set_simulation", result, said);
+}
+
+Status Renderer::simulate(std::uint64_t value, double seconds) const {
+    if (Status status = checkSimulates(*api_); !status) {
+        return status;
+    }
+    auto said = sized<SluiceError>();
+    const SluiceResult result = api_->simulate(handle_, value, seconds, &said);
+    return statusOf("simulate", result, said);
+}
+
+Status Renderer::waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) const {
+    if (Status status = checkSimulates(*api_); !status) {
+        return status;
+    }
+    const SluiceResult result = api_->simulation_wait(handle_, value, timeout_ns);
+    if (result == SLUICE_TIMEOUT) {
+        return Error{
+            SLUICE_TIMEOUT, "simulation",
+            fmt::format("value {} was not reached within {:.3f} s", value, static_cast<double>(timeout_ns) * 1e-9), ""};
+    }
+    return statusOf("simulation_wait", result, sized<SluiceError>());
+}
+
+Result<SluiceSimulationStats> Renderer::simulationStats() const {
+    if (Status status = checkSimulates(*api_); !status) {
+        return status.error();
+    }
+    auto stats = sized<SluiceSimulationStats>();
+    if (const SluiceResult result = api_->simulation_stats(handle_, &stats); result != SLUICE_OK) {
+        return rendererError("simulation_stats", result, sized<SluiceError>());
+    }
+    Result<SluiceSimulationStats> answer = filled("simulation_stats", stats);
+    if (answer) {
+        terminate(answer.value().message);
+    }
+    return answer;
 }
 
 Status Renderer::submit(const SluiceFrame& frame) const {

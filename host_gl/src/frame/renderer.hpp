@@ -34,6 +34,11 @@ class Renderer {
     [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height) const;
     [[nodiscard]] Status setParticles(const SluiceParticles& particles) const;
     [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment) const;
+    /// Those of a simulation: UNSUPPORTED where the plugin's table ends before them.
+    [[nodiscard]] Status setSimulation(const SluiceSimulation* simulation) const;
+    [[nodiscard]] Status simulate(std::uint64_t value, double seconds) const;
+    [[nodiscard]] Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) const;
+    [[nodiscard]] Result<SluiceSimulationStats> simulationStats() const;
     [[nodiscard]] Status submit(const SluiceFrame& frame) const;
     /// Polls until the frame has finished, for `timeout_ns` at most.
     [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame, std::uint64_t timeout_ns) const;

@@ -139,10 +139,14 @@ Status RendererLife::callRenderer(const FrameInput& input, std::uint64_t frame) 
     call.camera = input.camera;
     call.sky = input.sky;
     call.fluid = input.fluid;
+    call.simulation = input.simulation;
     const std::optional<FaultPlan>& fault = link_.config.fault;
     if (fault && fault->kind == FaultKind::SkipWait && fault->direction == SLUICE_HOST_TO_RENDERER &&
         fault->frame == frame) {
         call.flags |= SLUICE_FRAME_SKIP_WAIT;
+    }
+    if (fault && fault->direction == SLUICE_SIMULATION_TO_RENDERER && fault->frame == frame) {
+        call.flags |= SLUICE_FRAME_SKIP_SIMULATION_WAIT;
     }
     tellSubmit(frame);
     const std::uint64_t begin = traceClock(link_.config.trace);

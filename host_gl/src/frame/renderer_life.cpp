@@ -9,6 +9,7 @@
 
 #include "compositor/draw_guard.hpp"
 #include "frame/check_info.hpp"
+#include "sluice/abi_sizes.hpp"
 #include "timeline/timeline_events.hpp"
 
 namespace sluice::host {
@@ -85,6 +86,34 @@ Status RendererLife::setParticles(const SluiceParticles& particles) {
 Status RendererLife::setEnvironment(const SluiceEnvironment* environment) {
     const auto scope = watch_.during("set_environment", 0);
     return given(link_.renderer.setEnvironment(environment));
+}
+
+Status RendererLife::setSimulation(const SluiceSimulation* simulation) {
+    const auto scope = watch_.during("set_simulation", 0);
+    Status status = link_.renderer.setSimulation(simulation);
+    if (status && simulation != nullptr && feed() != nullptr) {
+        feed()->simulationMade(readAbiStruct(*simulation).frames_in_flight + 1);
+    }
+    return given(std::move(status));
+}
+
+Status RendererLife::simulate(std::uint64_t value, double seconds) {
+    const auto scope = watch_.during("simulate", value);
+    return given(link_.renderer.simulate(value, seconds));
+}
+
+Status RendererLife::waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) {
+    const auto scope = watch_.during("simulation_wait", value, timeout_ns);
+    Status status = link_.renderer.waitForSimulation(value, timeout_ns);
+    if (!status) {
+        noteLoss(status.error());
+    }
+    return status;
+}
+
+Result<SluiceSimulationStats> RendererLife::simulationStats() {
+    const auto scope = watch_.during("simulation_stats", 0);
+    return link_.renderer.simulationStats();
 }
 
 Result<SluiceFrameStats> RendererLife::stats(std::uint64_t frame) {

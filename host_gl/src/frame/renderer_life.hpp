@@ -29,6 +29,10 @@ class RendererLife {
     [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height);
     [[nodiscard]] Status setParticles(const SluiceParticles& particles);
     [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment);
+    [[nodiscard]] Status setSimulation(const SluiceSimulation* simulation);
+    [[nodiscard]] Status simulate(std::uint64_t value, double seconds);
+    [[nodiscard]] Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns);
+    [[nodiscard]] Result<SluiceSimulationStats> simulationStats();
     [[nodiscard]] Status submit(const Screen& screen, const FrameInput& input);
     [[nodiscard]] Status composite(const Screen& screen);
     [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame);

@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "isolate/proxy_parts.hpp"
+#include "isolate/proxy_simulation.hpp"
 #include "sluice/abi_boundary.hpp"
 #include "sluice/abi_sizes.hpp"
 #include "sluice/isolate/sealed_memory.hpp"
@@ -283,6 +284,7 @@ SluiceRendererApi rendererFunctions() {
     table.timeline_value = timelineValue;
     table.timeline_export = timelineExport;
     table.destroy = destroy;
+    addSimulation(table);
     return table;
 }
 

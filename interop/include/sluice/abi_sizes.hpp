@@ -15,8 +15,9 @@
 
 namespace sluice {
 
-/// The bytes of T that ABI 1.0 has: up to the end of its last field then, without padding. Never changed within a
-/// major, whatever is appended to T. T itself tells only for structs that a test defines.
+/// The bytes of T that ABI 1.0, or the minor that brought T, has: up to the end of its last field then, without
+/// padding. Never changed within a major, whatever is appended to T. T itself tells only for structs that a test
+/// defines.
 template <typename T>
 inline constexpr std::size_t kAbiMinimum = T::kMinimum;
 
@@ -60,6 +61,13 @@ inline constexpr std::size_t kAbiMinimum<SluiceRendererInfo> = offsetof(SluiceRe
 template <>
 inline constexpr std::size_t kAbiMinimum<SluiceRendererApi> = offsetof(SluiceRendererApi, destroy) +
                                                               sizeof(SluiceRendererApi::destroy);
+
+template <>
+inline constexpr std::size_t kAbiMinimum<SluiceSimulation> = offsetof(SluiceSimulation, velocity) +
+                                                             sizeof(SluiceSimulation::velocity);
+template <>
+inline constexpr std::size_t kAbiMinimum<SluiceSimulationStats> = offsetof(SluiceSimulationStats, message) +
+                                                                  sizeof(SluiceSimulationStats::message);
 
 /// An empty T that says its size.
 template <typename T>

@@ -24,7 +24,8 @@
  * THREADS
  *   All renderer functions are called on the thread that owns the host's GL context, with that context current, because
  *   they may call back into host services that issue GL commands. The exceptions, callable from any thread at any time
- *   between create and destroy, are timeline_signal, timeline_wait and timeline_value.
+ *   between create and destroy, are timeline_signal, timeline_wait and timeline_value; and simulation_wait and
+ *   simulation_stats, but not while set_simulation runs.
  *   A renderer may call SluiceHostServices::log and ::trace from any thread; share_image, retire_image and canary only
  *   from inside create, resize, destroy or probe_format, on the calling thread.
  *
@@ -57,7 +58,7 @@ extern "C" {
 #endif
 
 #define SLUICE_ABI_MAJOR 1u
-#define SLUICE_ABI_MINOR 0u
+#define SLUICE_ABI_MINOR 1u
 /* No casts in these macros: C++ readers of this header compile with -Wold-style-cast. */
 #define SLUICE_MAKE_ABI(major, minor) (((major) << 16u) | (minor))
 #define SLUICE_ABI_VERSION SLUICE_MAKE_ABI(SLUICE_ABI_MAJOR, SLUICE_ABI_MINOR)
@@ -145,7 +146,9 @@ typedef enum SluiceTimelineKind {
 
 typedef enum SluiceDirection {
     SLUICE_HOST_TO_RENDERER = 0, /* frame k: 2k-1 = GBuffer written, 2k = fluid images read by the composite */
-    SLUICE_RENDERER_TO_HOST = 1  /* frame k: k = fluid images written and GBuffer no longer read */
+    SLUICE_RENDERER_TO_HOST = 1, /* frame k: k = fluid images written and GBuffer no longer read */
+    /* Since ABI 1.1, in trace events alone; value v = the fluid of v lies in its output slot. */
+    SLUICE_SIMULATION_TO_RENDERER = 2
 } SluiceDirection;
 
 typedef enum SluiceLogLevel {
@@ -176,7 +179,8 @@ typedef enum SluiceTrack {
     SLUICE_TRACK_BRIDGE = 2,
     SLUICE_TRACK_RENDERER_CPU = 3,
     SLUICE_TRACK_RENDERER_QUEUE = 4,
-    SLUICE_TRACK_COUNT = 5
+    SLUICE_TRACK_SIMULATION = 5, /* since ABI 1.1: the queue and the thread of the simulation */
+    SLUICE_TRACK_COUNT = 6
 } SluiceTrack;
 
 /* One event. Times are CLOCK_MONOTONIC nanoseconds. name is copied by the receiver (truncated to 31 characters). */
@@ -354,7 +358,8 @@ typedef struct SluiceSceneNeeds {
 } SluiceSceneNeeds;
 
 typedef enum SluiceFrameFlags {
-    SLUICE_FRAME_SKIP_WAIT = 1 /* fault for tests: do not wait for wait_value */
+    SLUICE_FRAME_SKIP_WAIT = 1,           /* fault for tests: do not wait for wait_value */
+    SLUICE_FRAME_SKIP_SIMULATION_WAIT = 2 /* since ABI 1.1, likewise: do not wait for the simulation */
 } SluiceFrameFlags;
 
 /* One frame. Frames are numbered from 1 without gaps. */
@@ -369,7 +374,59 @@ typedef struct SluiceFrame {
     SluiceCamera camera;
     SluiceSky sky;
     SluiceFluid fluid;
+    uint64_t simulation; /* since ABI 1.1: the value of the simulation to draw; 0: the particles of set_particles */
 } SluiceFrame;
+
+/* ------------------------------------------------------------------------------------- simulation, since ABI 1.1 -- */
+
+typedef enum SluiceSolidKind {
+    SLUICE_SOLID_PLANE = 0,  /* a: normal, need not be unit; b: a point of it. Solid is the side away from the normal */
+    SLUICE_SOLID_SPHERE = 1, /* a: centre; radius */
+    SLUICE_SOLID_CAPSULE = 2, /* all within radius of the line from a to b */
+    SLUICE_SOLID_BOX = 3,     /* a: centre; b: half extents; turned by turn_degrees about +y */
+    SLUICE_SOLID_KIND_COUNT = 4
+} SluiceSolidKind;
+
+/* Something that fluid stays out of; metres. Stands in an array, so its size is for good. */
+typedef struct SluiceSolid {
+    uint32_t kind; /* SluiceSolidKind */
+    float a[3], b[3];
+    float radius, turn_degrees;
+    uint32_t reserved[7]; /* zero */
+} SluiceSolid;
+
+#define SLUICE_MAX_FRAMES_IN_FLIGHT 3u
+
+/* A fluid that the renderer lets flow by itself; docs/simulation.md has every number. Metres, seconds. Arrays are
+ * tightly packed and copied during the call. */
+typedef struct SluiceSimulation {
+    uint32_t struct_size;
+    uint32_t frames_in_flight; /* 1..SLUICE_MAX_FRAMES_IN_FLIGHT: values that may be asked for and not drawn yet */
+    float radius;              /* of a particle */
+    float low[3], high[3];     /* the box that nothing leaves */
+    float gravity[3];
+    uint32_t iterations;
+    float relaxation, tensile, viscosity, vorticity, cfl;
+    double longest_step; /* seconds, above 0, at most 1 */
+    uint32_t solid_count, particle_count;
+    const SluiceSolid* solids;
+    const float* position;
+    const float* velocity; /* may be NULL: at rest */
+} SluiceSimulation;
+
+typedef struct SluiceSimulationStats {
+    uint32_t struct_size;
+    uint32_t particle_count;
+    uint64_t asked;   /* last value that simulate was called with */
+    uint64_t reached; /* of the timeline */
+    uint64_t failed;  /* first value that could not be simulated, 0: none; from it on all are the last good state */
+    uint64_t steps, steps_taken_again;
+    uint64_t busy_ns;              /* spent on values, waiting for the queue included, since set_simulation */
+    uint64_t last_busy_ns;         /* of that, on the value that was reached last */
+    double shortest_step, fastest; /* seconds; metres per second */
+    uint32_t own_queue;            /* 1: a queue of its own; 0: it takes turns with the frames */
+    char message[508];             /* why `failed` failed */
+} SluiceSimulationStats;
 
 /* ------------------------------------------------------------------------------------------------- statistics -- */
 
@@ -452,8 +509,10 @@ typedef struct SluiceRendererApi {
     /* Replace the environment map; NULL returns to the procedural sky. */
     SluiceResult (*set_environment)(SluiceRenderer* renderer, const SluiceEnvironment* environment, SluiceError* error);
 
-    /* Record and submit frame k. Returns without waiting for the device (FINISH excepted). On failure the fluid images
-     * of that set are undefined and signal_value is never signalled by this frame: the host composes without fluid. */
+    /* Record and submit frame k. Returns without waiting for the device (FINISH excepted; and where simulation and
+     * frames share one queue, a frame that draws a value waits until the last work of that value has been submitted).
+     * On failure the fluid images of that set are undefined and signal_value is never signalled by this frame: the host
+     * composes without fluid. */
     SluiceResult (*submit_frame)(SluiceRenderer* renderer, const SluiceFrame* frame, SluiceError* error);
 
     /* Statistics of a submitted frame; SLUICE_NOT_READY until it finished. Kept for the last image_sets frames. */
@@ -475,6 +534,25 @@ typedef struct SluiceRendererApi {
 
     /* Waits for the device, retires every image, frees everything. NULL is ignored. */
     void (*destroy)(SluiceRenderer* renderer);
+
+    /* ABI 1.0 ends here. What follows lets a fluid flow on a thread and, where there is one, a queue of the renderer's
+     * own. Its timeline starts at 0 and reaches v when the fluid of value v lies in an output slot on the device. A
+     * ring of frames_in_flight + 1 slots is what frames are drawn from; no particle passes through the CPU. */
+
+    /* Replace the simulation; NULL ends it. Waits for the frames in flight. The fluid stands still until simulate. On
+     * failure there is none. */
+    SluiceResult (*set_simulation)(SluiceRenderer* renderer, const SluiceSimulation* simulation, SluiceError* error);
+
+    /* Let the fluid flow for `seconds` more (0: not at all) and call the result `value`, from 1 without gaps. Returns
+     * at once. The value frames_in_flight + 1 before can be drawn no more; its slot is overwritten when the frames that
+     * draw it have ended. A step that fails is told by simulation_stats and by one line of the log. */
+    SluiceResult (*simulate)(SluiceRenderer* renderer, uint64_t value, double seconds, SluiceError* error);
+
+    /* Any thread. Until the timeline has reached `value`, or SLUICE_TIMEOUT. */
+    SluiceResult (*simulation_wait)(SluiceRenderer* renderer, uint64_t value, uint64_t timeout_ns);
+
+    /* Any thread. INVALID_ARGUMENT without a simulation. */
+    SluiceResult (*simulation_stats)(SluiceRenderer* renderer, SluiceSimulationStats* stats);
 } SluiceRendererApi;
 
 /* The one exported symbol. Returns NULL when abi_version's major is not served. */

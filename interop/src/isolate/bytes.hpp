@@ -204,6 +204,7 @@ class Reader {
             pass.name[sizeof(pass.name) - 1] = '\0';
         }
     }
+    void check(SluiceSimulationStats& value, std::size_t /*at*/) { value.message[sizeof(value.message) - 1] = '\0'; }
     static void end(SluiceRendererCapabilities& value) {
         value.device_name[sizeof(value.device_name) - 1] = '\0';
         value.driver_name[sizeof(value.driver_name) - 1] = '\0';

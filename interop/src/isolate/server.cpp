@@ -110,6 +110,20 @@ class Server {
     }
     Message handle(const SetParticles& call, UniqueFd& /*with*/);
     Message handle(const SetEnvironment& call, UniqueFd& /*with*/);
+    Message handle(const SetSimulation& call, UniqueFd& /*with*/);
+    Message handle(const Simulate& call, UniqueFd& /*with*/) {
+        auto error = sized<SluiceError>();
+        const SluiceResult result =
+            simulates(error) ? api_.simulate(renderer_, call.value, call.seconds, &error) : SLUICE_ERROR_UNSUPPORTED;
+        return said(result, error);
+    }
+    Message handle(const SimulationStats& /*call*/, UniqueFd& /*with*/) {
+        auto error = sized<SluiceError>();
+        auto stats = sized<SluiceSimulationStats>();
+        const SluiceResult result =
+            simulates(error) ? api_.simulation_stats(renderer_, &stats) : SLUICE_ERROR_UNSUPPORTED;
+        return said(result, error, stats);
+    }
     Message handle(const SubmitFrame& call, UniqueFd& /*with*/) {
         auto error = sized<SluiceError>();
         if (carriers_) {
@@ -158,6 +172,15 @@ class Server {
         return Answer{};
     }
 
+    /// Whether the plugin's table goes that far (ABI 1.1).
+    [[nodiscard]] bool simulates(SluiceError& error) const {
+        const bool all = api_.set_simulation != nullptr && api_.simulate != nullptr && api_.simulation_stats != nullptr;
+        if (!all) {
+            writeAbiError(&error, {SLUICE_ERROR_UNSUPPORTED, "the plugin", "serves ABI 1.0 and simulates nothing",
+                                   "use a newer one, or give it particles"});
+        }
+        return all;
+    }
     void destroyRenderer() {
         carriers_.reset();
         if (renderer_ != nullptr) {
@@ -237,6 +260,32 @@ Message Server::handle(const SetParticles& call, UniqueFd& /*with*/) {
         }
     }
     const SluiceResult result = api_.set_particles(renderer_, &particles, &error);
+    return said(result, error);
+}
+
+Message Server::handle(const SetSimulation& call, UniqueFd& /*with*/) {
+    auto error = sized<SluiceError>();
+    if (!simulates(error)) {
+        return said(SLUICE_ERROR_UNSUPPORTED, error);
+    }
+    if (fds_.empty()) {
+        const SluiceResult result = api_.set_simulation(renderer_, nullptr, &error);
+        return said(result, error);
+    }
+    SluiceSimulation simulation = call.simulation;
+    const std::size_t solids = std::size_t{simulation.solid_count} * sizeof(SluiceSolid);
+    const std::size_t floats = std::size_t{3} * simulation.particle_count;
+    const std::size_t arrays = call.has_velocity != 0 ? 2 : 1;
+    const Result<Mapping> mapped = mapSealed(fds_.front(), solids + arrays * floats * sizeof(float));
+    if (!mapped) {
+        writeAbiError(&error, mapped.error());
+        return said(mapped.error().code, error);
+    }
+    const auto* bytes = static_cast<const std::byte*>(mapped.value().at());
+    simulation.solids = static_cast<const SluiceSolid*>(static_cast<const void*>(bytes));
+    simulation.position = static_cast<const float*>(static_cast<const void*>(bytes + solids));
+    simulation.velocity = call.has_velocity != 0 ? simulation.position + floats : nullptr;
+    const SluiceResult result = api_.set_simulation(renderer_, &simulation, &error);
     return said(result, error);
 }
 

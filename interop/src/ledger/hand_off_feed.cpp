@@ -53,6 +53,9 @@ HandOffFeed::~HandOffFeed() {
         queueUntold();
     }
     put(EventKind::ActorEnd, kRendererQueue, kNoObject, queue_frame_);
+    if (slots_ != 0) {
+        put(EventKind::ActorEnd, kSimulationQueue, kNoObject, queue_frame_);
+    }
     if (kind_ == SLUICE_TIMELINE_BRIDGED) {
         put(EventKind::ActorEnd, kBridgeThread, kNoObject, submitted_);
     }

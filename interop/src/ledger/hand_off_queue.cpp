@@ -40,7 +40,50 @@ void HandOffFeed::queueTouches(std::uint64_t frame, std::uint64_t begin_ns) {
     putImages(EventKind::Write, kRendererQueue, kFluidRoles, frame, frame, begin_ns);
 }
 
+void HandOffFeed::simulationMade(std::uint32_t slots) {
+    const std::lock_guard lock(mutex_);
+    if (blind_) {
+        return;
+    }
+    if (slots_ == 0) {
+        ledger_.declareActor(kSimulationQueue, ActorKind::VulkanQueue, "simulation");
+        ledger_.declareSync(kFramesDone, SyncKind::Timeline, "frames that drew", 0, 0);
+    }
+    ledger_.declareSync(kSimulation, SyncKind::Timeline, "simulation", 0, 0);
+    for (std::uint32_t slot = 0; slot < slots; ++slot) {
+        // Buffers of both queues: nobody owns them, and they have no layout.
+        ledger_.declareResource(slotResource(slot), fmt::format("output slot {}", slot), 0, kNoActor);
+    }
+    slots_ = slots;
+}
+
+void HandOffFeed::simulationTold(const SluiceTraceEvent& event) {
+    const std::lock_guard lock(mutex_);
+    if (slots_ == 0) {
+        return;
+    }
+    switch (event.kind) {
+        case SLUICE_TRACE_WAIT:
+            put(EventKind::Wait, kSimulationQueue, kFramesDone, event.frame, event.value, event.begin_ns,
+                event.duration_ns);
+            return;
+        case SLUICE_TRACE_RELEASE:
+            put(EventKind::Write, kSimulationQueue, slotResource(event.value % slots_), event.frame, event.value,
+                event.begin_ns);
+            return;
+        case SLUICE_TRACE_SIGNAL:
+            put(EventKind::Signal, kSimulationQueue, kSimulation, event.frame, event.value, event.begin_ns);
+            return;
+        default:
+            return;
+    }
+}
+
 void HandOffFeed::trace(const SluiceTraceEvent& event) {
+    if (event.track == SLUICE_TRACK_SIMULATION) {
+        simulationTold(event);
+        return;
+    }
     if (event.track != SLUICE_TRACK_RENDERER_QUEUE || event.frame == 0) {
         return;
     }
@@ -57,6 +100,12 @@ void HandOffFeed::trace(const SluiceTraceEvent& event) {
     queueBegins(event.frame, event.begin_ns);
     switch (event.kind) {
         case SLUICE_TRACE_WAIT: {
+            if (event.direction == SLUICE_SIMULATION_TO_RENDERER) {
+                if (slots_ != 0) {
+                    put(EventKind::Wait, kRendererQueue, kSimulation, event.frame, event.value, event.begin_ns);
+                }
+                return;
+            }
             // It is told when the wait had ended: from its submission on the queue stood there.
             const std::uint64_t since =
                 std::min(std::max(queue_free_ns_, times(event.frame).submitted_ns), event.begin_ns);
@@ -65,6 +114,11 @@ void HandOffFeed::trace(const SluiceTraceEvent& event) {
             return;
         }
         case SLUICE_TRACE_ACQUIRE:
+            if (event.direction == SLUICE_SIMULATION_TO_RENDERER && slots_ != 0) {
+                put(EventKind::Read, kRendererQueue, slotResource(event.value % slots_), event.frame, event.value,
+                    event.begin_ns);
+                return;
+            }
             putImages(EventKind::Acquire, kRendererQueue, image(), event.frame, kGeneralToGeneral, event.begin_ns);
             return;
         case SLUICE_TRACE_PASS:
@@ -77,6 +131,9 @@ void HandOffFeed::trace(const SluiceTraceEvent& event) {
         case SLUICE_TRACE_SIGNAL:
             put(EventKind::Signal, kRendererQueue, syncOf(SLUICE_RENDERER_TO_HOST, event.value), event.frame,
                 event.value, event.begin_ns);
+            if (slots_ != 0) {
+                put(EventKind::Signal, kRendererQueue, kFramesDone, event.frame, event.value, event.begin_ns);
+            }
             queue_free_ns_ = event.begin_ns;
             unheard_ = 0;
             return;
@@ -88,6 +145,9 @@ void HandOffFeed::trace(const SluiceTraceEvent& event) {
 void HandOffFeed::rendererLost() {
     const std::lock_guard lock(mutex_);
     put(EventKind::ActorEnd, kRendererQueue, kNoObject, submitted_);
+    if (slots_ != 0) {
+        put(EventKind::ActorEnd, kSimulationQueue, kNoObject, submitted_);
+    }
 }
 
 std::string HandOffFeed::waitForChain(std::uint64_t value) const {

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "device/capabilities.hpp"
@@ -25,6 +27,7 @@ std::mutex& loaderLock() {
 
 std::atomic<bool> no_timer_barrier{false};
 std::atomic<bool> stage_uploads{false};
+std::atomic<bool> one_queue{false};
 
 Status createInstance(Device& device, bool validation) {
     auto application = vkStruct<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
@@ -108,6 +111,36 @@ Status choosePhysical(Device& device, const DeviceRequest& request) {
     return {};
 }
 
+/// Which queues to create; the second, if any, is the one for compute.
+struct QueuePlan {
+    std::vector<VkDeviceQueueCreateInfo> infos;
+    std::optional<QueueChoice> compute;
+};
+
+QueuePlan planQueues(const Device& device, const float* priorities) {
+    std::uint32_t count = 0;
+    device.instance_fn.vkGetPhysicalDeviceQueueFamilyProperties(device.physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    device.instance_fn.vkGetPhysicalDeviceQueueFamilyProperties(device.physical, &count, families.data());
+    QueuePlan plan;
+    if (!device.switches.one_queue) {
+        plan.compute = chooseComputeQueue(families, device.queue_family);
+    }
+    const auto add = [&](std::uint32_t family, std::uint32_t queues) {
+        auto info = vkStruct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+        info.queueFamilyIndex = family;
+        info.queueCount = queues;
+        info.pQueuePriorities = priorities;
+        plan.infos.push_back(info);
+    };
+    const bool same_family = plan.compute && plan.compute->family == device.queue_family;
+    add(device.queue_family, same_family ? 2 : 1);
+    if (plan.compute && !same_family) {
+        add(plan.compute->family, 1);
+    }
+    return plan;
+}
+
 /// The device's clock and CLOCK_MONOTONIC can be read together.
 bool calibrates(const Device& device) {
     const auto domains = device.instance_fn.vkGetPhysicalDeviceCalibrateableTimeDomainsEXT;
@@ -160,15 +193,12 @@ Status createLogical(Device& device) {
     device.features.large_points = wanted.features.largePoints != VK_FALSE;
     device.features.storage_write_without_format = wanted.features.shaderStorageImageWriteWithoutFormat != VK_FALSE;
 
-    const float priority = 1.0F;
-    auto queue = vkStruct<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
-    queue.queueFamilyIndex = device.queue_family;
-    queue.queueCount = 1;
-    queue.pQueuePriorities = &priority;
+    constexpr std::array<float, 2> kPriorities{1.0F, 1.0F};
+    const QueuePlan queues = planQueues(device, kPriorities.data());
     auto info = vkStruct<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
     info.pNext = &wanted;
-    info.queueCreateInfoCount = 1;
-    info.pQueueCreateInfos = &queue;
+    info.queueCreateInfoCount = static_cast<std::uint32_t>(queues.infos.size());
+    info.pQueueCreateInfos = queues.infos.data();
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
     const VkResult result = fn.vkCreateDevice(device.physical, &info, nullptr, &device.handle);
@@ -179,18 +209,23 @@ Status createLogical(Device& device) {
     volkLoadInstanceOnly(device.instance);
     volkLoadDeviceTable(&device.fn, device.handle);
     device.fn.vkGetDeviceQueue(device.handle, device.queue_family, 0, &device.queue);
+    if (queues.compute) {
+        device.compute_family = queues.compute->family;
+        device.fn.vkGetDeviceQueue(device.handle, device.compute_family, queues.compute->index, &device.compute_queue);
+    }
     return {};
 }
 
 }  // namespace
 
 TestSwitches testSwitches() noexcept {
-    return {no_timer_barrier.load(), stage_uploads.load()};
+    return {no_timer_barrier.load(), stage_uploads.load(), one_queue.load()};
 }
 
 void setTestSwitches(const TestSwitches& switches) noexcept {
     no_timer_barrier = switches.no_timer_barrier;
     stage_uploads = switches.stage_uploads;
+    one_queue = switches.one_queue;
 }
 
 Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request) {
@@ -201,7 +236,7 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request) {
     }
     auto device = std::make_unique<Device>();
     device->services = request.services;
-    device->messages = std::make_unique<MessageSink>();
+    device->messages = std::make_shared<MessageSink>();
     device->messages->services = request.services;
     if (Status status = createInstance(*device, request.validation); !status) {
         return status.error();
@@ -215,7 +250,53 @@ Result<std::unique_ptr<Device>> Device::create(const DeviceRequest& request) {
     return device;
 }
 
+std::unique_ptr<Device> Device::computeView() const {
+    auto out = std::make_unique<Device>();
+    out->view = true;
+    out->instance = instance;
+    out->physical = physical;
+    out->handle = handle;
+    const bool other = compute_queue != VK_NULL_HANDLE;
+    out->queue = other ? compute_queue : queue;
+    out->queue_family = other ? compute_family : queue_family;
+    if (!other) {
+        out->queue_lock = queue_lock;
+    }
+    out->instance_fn = instance_fn;
+    out->fn = fn;
+    out->properties = properties;
+    out->memory = memory;
+    out->driver = driver;
+    out->features = features;
+    out->switches = switches;
+    out->capabilities = capabilities;
+    out->services = services;
+    out->messages = messages;
+    out->messenger = messenger;
+    return out;
+}
+
+VkResult Device::submit(const VkSubmitInfo2& info, VkFence fence) const {
+    const std::lock_guard guard(*queue_lock);
+    return fn.vkQueueSubmit2(queue, 1, &info, fence);
+}
+
+VkResult Device::waitIdle() const {
+    const std::lock_guard guard(*queue_lock);
+    return fn.vkQueueWaitIdle(queue);
+}
+
+std::vector<std::uint32_t> Device::sharingFamilies() const {
+    if (compute_queue == VK_NULL_HANDLE || compute_family == queue_family) {
+        return {};
+    }
+    return {queue_family, compute_family};
+}
+
 Device::~Device() {
+    if (view) {
+        return;
+    }
     if (handle != VK_NULL_HANDLE) {
         fn.vkDeviceWaitIdle(handle);
         fn.vkDestroyDevice(handle, nullptr);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// One Vulkan device with one queue: the renderer's root object. Everything else refers to it and dies before it.
+// One Vulkan device and the queue that work on it goes to: the renderer's root object. Everything else refers to it and
+// dies before it.
 #pragma once
 
 #include <volk.h>
@@ -7,7 +8,9 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string_view>
+#include <vector>
 
 #include "device/functions.hpp"
 #include "sluice/plugin.h"
@@ -21,6 +24,7 @@ struct MessageSink;
 struct TestSwitches {
     bool no_timer_barrier = false;  ///< FrameTimer leaves its barrier out, whatever the driver
     bool stage_uploads = false;     ///< particles go through a staging buffer, whatever the memory
+    bool one_queue = false;         ///< the simulation takes turns with the frames, whatever queues there are
 };
 
 /// The switches of devices created from now on, by any thread; all off unless a test, which links this core and not the
@@ -43,12 +47,16 @@ struct DeviceFeatures {
     bool calibrated_timestamps = false;  ///< device and CLOCK_MONOTONIC
 };
 
-/// Owns the instance, the device and its single graphics+compute queue. Pinned in memory: keep it by unique_ptr and
-/// pass `const Device&`. Call device functions through `fn`: `device.fn.vkCmdDispatch(commands, x, y, z)`. The queue is
-/// used on the thread that owns the renderer; `fn` may be used from any thread within Vulkan's own rules. Enabled
-/// always: Vulkan 1.3 with synchronization2, dynamicRendering, maintenance4, timelineSemaphore.
+/// Owns the instance and the device. Pinned in memory: keep it by unique_ptr and pass `const Device&`. Call device
+/// functions through `fn`: `device.fn.vkCmdDispatch(commands, x, y, z)`; from any thread within Vulkan's own rules, but
+/// what uses a queue goes through submit() and waitIdle(). Enabled always: Vulkan 1.3 with synchronization2,
+/// dynamicRendering, maintenance4, timelineSemaphore.
 struct Device {
     static Result<std::unique_ptr<Device>> create(const DeviceRequest& request);
+    /// The same device as work on its compute queue sees it: another `queue`, or the same one where there is no other,
+    /// and nothing owned. Takes no timestamps (lavapipe's results wait until every queue is idle). Dies before this
+    /// one.
+    [[nodiscard]] std::unique_ptr<Device> computeView() const;
 
     Device() = default;
     Device(const Device&) = delete;
@@ -59,8 +67,11 @@ struct Device {
     VkInstance instance = VK_NULL_HANDLE;
     VkPhysicalDevice physical = VK_NULL_HANDLE;
     VkDevice handle = VK_NULL_HANDLE;
-    VkQueue queue = VK_NULL_HANDLE;
+    VkQueue queue = VK_NULL_HANDLE;  ///< graphics and compute; of computeView(): for compute
     std::uint32_t queue_family = 0;
+    std::shared_ptr<std::mutex> queue_lock = std::make_shared<std::mutex>();  ///< of `queue`
+    VkQueue compute_queue = VK_NULL_HANDLE;  ///< runs beside `queue`; null where the device has none
+    std::uint32_t compute_family = 0;
     std::uint32_t timestamp_valid_bits = 0;  ///< of the queue family; 0: no timestamps
 
     InstanceFunctions instance_fn{};
@@ -72,6 +83,12 @@ struct Device {
     DeviceFeatures features{};
     TestSwitches switches = testSwitches();  ///< as they were when the device was created
     SluiceRendererCapabilities capabilities{};
+
+    /// vkQueueSubmit2 and vkQueueWaitIdle, from any thread: a queue may be another thread's as well.
+    [[nodiscard]] VkResult submit(const VkSubmitInfo2& info, VkFence fence) const;
+    [[nodiscard]] VkResult waitIdle() const;
+    /// The families of both queues where they differ, for buffers that both use; else empty.
+    [[nodiscard]] std::vector<std::uint32_t> sharingFamilies() const;
 
     /// Index of a memory type of `type_bits` with all of `wanted`, preferring one that also has all of `preferred`.
     [[nodiscard]] Result<std::uint32_t> memoryType(std::uint32_t type_bits, VkMemoryPropertyFlags wanted,
@@ -95,8 +112,9 @@ struct Device {
     mutable std::atomic<std::uint64_t> shared_bytes_by_cpu{0};
 
     const SluiceHostServices* services = nullptr;
-    std::unique_ptr<MessageSink> messages;
+    std::shared_ptr<MessageSink> messages;
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    bool view = false;  ///< of computeView(): owns nothing
 };
 
 /// The name of a VkResult, "VK_ERROR_DEVICE_LOST".

@@ -42,7 +42,8 @@ void count(const Device& device, const Image& image, std::size_t bytes) {
 
 }  // namespace
 
-Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>& record) {
+Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>& record,
+               std::span<const VkSemaphoreSubmitInfo> signals) {
     Transient mine(device);
     VkCommandBuffer commands = VK_NULL_HANDLE;
     if (Status status = createCommands(device, mine.pool, commands); !status) {
@@ -69,14 +70,16 @@ Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>&
     auto submit = vkStruct<VkSubmitInfo2>(VK_STRUCTURE_TYPE_SUBMIT_INFO_2);
     submit.commandBufferInfoCount = 1;
     submit.pCommandBufferInfos = &command_info;
-    result = device.fn.vkQueueSubmit2(device.queue, 1, &submit, mine.fence);
+    submit.signalSemaphoreInfoCount = static_cast<std::uint32_t>(signals.size());
+    submit.pSignalSemaphoreInfos = signals.data();
+    result = device.submit(submit, mine.fence);
     if (result != VK_SUCCESS) {
         return vulkanError(result, "vkQueueSubmit2");
     }
     result = device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, kDeadlineNs);
     if (result == VK_TIMEOUT) {
         // Freeing what the queue still uses would be worse than waiting on.
-        device.fn.vkDeviceWaitIdle(device.handle);
+        (void)device.waitIdle();
         return Error{SLUICE_ERROR_INTERNAL, "one-shot commands", "not finished after 60 s", ""};
     }
     if (result != VK_SUCCESS) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Record, submit and wait: for uploads, canaries and tests. Never inside the frame loop.
+// Record, submit and wait: for uploads, canaries, the simulation's thread and tests. Never inside the frame loop.
 #pragma once
 
 #include <volk.h>
@@ -17,7 +17,9 @@
 namespace sluice::vk {
 
 /// Runs what `record` recorded on the device's queue and waits until it has finished. Fails after 60 seconds.
-[[nodiscard]] Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>& record);
+/// `signals`: what the submission signals at its end.
+[[nodiscard]] Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>& record,
+                             std::span<const VkSemaphoreSubmitInfo> signals = {});
 
 /// A full barrier on one image: all commands before, all commands after. For set-up and tests, not for passes.
 void fullBarrier(const Device& device, VkCommandBuffer commands, VkImage image, VkImageAspectFlags aspect,

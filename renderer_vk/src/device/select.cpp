@@ -58,6 +58,20 @@ std::string_view missingFeature(const DeviceCandidate& candidate) {
     return {};
 }
 
+std::optional<QueueChoice> chooseComputeQueue(std::span<const VkQueueFamilyProperties> families, std::uint32_t main) {
+    for (std::uint32_t i = 0; i < families.size(); ++i) {
+        const VkQueueFamilyProperties& family = families[i];
+        if (i != main && family.queueCount > 0 && (family.queueFlags & VK_QUEUE_COMPUTE_BIT) != 0 &&
+            (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) == 0) {
+            return QueueChoice{i, 0};
+        }
+    }
+    if (main < families.size() && families[main].queueCount > 1) {
+        return QueueChoice{main, 1};
+    }
+    return std::nullopt;
+}
+
 Result<std::size_t> selectDevice(std::span<const DeviceCandidate> candidates, const SluiceHostCapabilities* host) {
     if (candidates.empty()) {
         return Error{SLUICE_ERROR_UNSUPPORTED, "Vulkan", "no physical device was found",

@@ -29,6 +29,16 @@ struct DeviceCandidate {
 [[nodiscard]] Result<std::size_t> selectDevice(std::span<const DeviceCandidate> candidates,
                                                const SluiceHostCapabilities* host);
 
+/// A queue of a device: `index` within its family.
+struct QueueChoice {
+    std::uint32_t family = 0, index = 0;
+    bool operator==(const QueueChoice&) const = default;
+};
+/// The queue for compute beside the first one of family `main`: that of a family without graphics, because such queues
+/// are what hardware runs beside its graphics; or else a second one of `main`. Empty if there is neither.
+[[nodiscard]] std::optional<QueueChoice> chooseComputeQueue(std::span<const VkQueueFamilyProperties> families,
+                                                            std::uint32_t main);
+
 /// Empty if frames can run on the device, else the first thing that it lacks.
 [[nodiscard]] std::string_view missingFeature(const DeviceCandidate& candidate);
 

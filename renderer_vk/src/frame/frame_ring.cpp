@@ -109,6 +109,9 @@ Status FrameRing::record(Slot& slot, const SluiceFrame& frame, const SharedImage
         recordUpload(device_, slot.commands, *slot.particles);
         particles = slot.particles->buffers();
     }
+    if (slot.simulated.value != 0) {
+        particles = slot.simulated.particles;  // the wait for the simulation has made them visible
+    }
     if (Status status = record(slot.commands, particles, slot.timer); !status) {
         return status;
     }
@@ -131,15 +134,14 @@ Status FrameRing::enqueue(Slot& slot, const SluiceFrame& frame, const SubmitSema
     info.pCommandBufferInfos = &commands;
     info.signalSemaphoreInfoCount = static_cast<std::uint32_t>(semaphores.signals.size());
     info.pSignalSemaphoreInfos = semaphores.signals.data();
-    if (const VkResult result = device_.fn.vkQueueSubmit2(device_.queue, 1, &info, VK_NULL_HANDLE);
-        result != VK_SUCCESS) {
+    if (const VkResult result = device_.submit(info, VK_NULL_HANDLE); result != VK_SUCCESS) {
         return vulkanError(result, fmt::format("vkQueueSubmit2 of frame {}", frame.frame));
     }
     return {};
 }
 
-Status FrameRing::submit(const SluiceFrame& frame, const SharedImages& images,
-                         const std::shared_ptr<ParticleSet>& particles, const PassRecorder& passes) {
+Status FrameRing::submit(const SluiceFrame& frame, const SharedImages& images, const FrameFluid& fluid,
+                         const PassRecorder& passes) {
     const std::uint64_t started = tracer_.now();
     const bool skip_wait = (frame.flags & SLUICE_FRAME_SKIP_WAIT) != 0;
     Slot& slot = *slots_[frame.image_set];
@@ -147,7 +149,9 @@ Status FrameRing::submit(const SluiceFrame& frame, const SharedImages& images,
         timeline_.retireFrame(slot.stats.frame);
     }
     slot.stats = {};
+    const std::shared_ptr<ParticleSet>& particles = fluid.particles;
     slot.particles = particles;
+    slot.simulated = fluid.simulated;
     slot.uploads = particles && !particles->recorded;
     slot.image_bytes.clear();
     for (std::uint32_t role = 0; role < SLUICE_IMAGE_ROLE_COUNT; ++role) {
@@ -160,6 +164,13 @@ Status FrameRing::submit(const SluiceFrame& frame, const SharedImages& images,
     if (!semaphores) {
         return semaphores.error();
     }
+    if (fluid.simulated.value != 0 && fluid.simulated.waits) {
+        auto wait = vkStruct<VkSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO);
+        wait.semaphore = fluid.simulated.semaphore;
+        wait.value = fluid.simulated.value;
+        wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        semaphores.value().waits.push_back(wait);
+    }
     if (Status status = record(slot, frame, images, passes); !status) {
         return status;
     }
@@ -169,7 +180,7 @@ Status FrameRing::submit(const SluiceFrame& frame, const SharedImages& images,
     }
     timeline_.submitted(frame.wait_value, frame.signal_value, skip_wait);
     slot.running = true;
-    slot.wait_value = semaphores.value().waits.empty() ? 0 : frame.wait_value;
+    slot.wait_value = skip_wait || timeline_.kind() == SLUICE_TIMELINE_UNSYNCHRONISED ? 0 : frame.wait_value;
     slot.stats.frame = frame.frame;
     if (particles) {
         particles->recorded = true;
@@ -250,6 +261,14 @@ void FrameRing::emit(const Slot& slot, const FrameTimes& times) const {
     if (slot.wait_value != 0) {
         tracer_.emit({SLUICE_TRACE_WAIT, kQueue, "queue waits for host", begin, 0, frame, slot.wait_value, 0,
                       SLUICE_HOST_TO_RENDERER});
+    }
+    if (const SimulatedFluid& fluid = slot.simulated; fluid.value != 0) {
+        if (fluid.waits) {
+            tracer_.emit({SLUICE_TRACE_WAIT, kQueue, "queue waits for simulation", begin, 0, frame, fluid.value, 0,
+                          SLUICE_SIMULATION_TO_RENDERER});
+        }
+        tracer_.emit({SLUICE_TRACE_ACQUIRE, kQueue, "SIMULATED_FLUID", begin, 0, frame, fluid.value,
+                      std::uint64_t{fluid.particles.count} * 12, SLUICE_SIMULATION_TO_RENDERER});
     }
     for (std::size_t role = 0; role < slot.image_bytes.size(); ++role) {
         if (slot.image_bytes[role] != 0) {

@@ -14,6 +14,7 @@
 #include "frame/particle_store.hpp"
 #include "frame/shared_images.hpp"
 #include "frame/tracer.hpp"
+#include "live/live_simulation.hpp"
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
 #include "sync/renderer_timeline.hpp"
@@ -22,6 +23,12 @@ namespace sluice::vk {
 
 /// Records the passes of a frame between its acquire and its release.
 using PassRecorder = std::function<Status(VkCommandBuffer, const ParticleBuffers&, PassTimer&)>;
+
+/// What a frame draws: particles that the host gave, or those of a simulation.
+struct FrameFluid {
+    std::shared_ptr<ParticleSet> particles;
+    SimulatedFluid simulated;  ///< of value 0: none
+};
 
 /// Used on the renderer's thread. Dies after drain(), before the timeline and the images.
 class FrameRing {
@@ -43,8 +50,8 @@ class FrameRing {
     [[nodiscard]] Status waitForAll();
 
     /// Records and submits; waitForSlot has succeeded. `frame` has been checked against the protocol.
-    [[nodiscard]] Status submit(const SluiceFrame& frame, const SharedImages& images,
-                                const std::shared_ptr<ParticleSet>& particles, const PassRecorder& record);
+    [[nodiscard]] Status submit(const SluiceFrame& frame, const SharedImages& images, const FrameFluid& fluid,
+                                const PassRecorder& record);
 
     /// Fills everything but struct_size and validation_messages. NOT_READY while it runs, INVALID_ARGUMENT if the frame
     /// is not among the last ones.
@@ -64,6 +71,7 @@ class FrameRing {
         bool uploads = false;            ///< this frame copies the particles from staging
         std::uint64_t submitted_ns = 0;  ///< for devices without timestamps
         std::uint64_t wait_value = 0;    ///< 0: waited for nothing
+        SimulatedFluid simulated;        ///< of value 0: none
         std::uint64_t cpu_bytes_before = 0;
         std::vector<std::uint64_t> image_bytes;  ///< of each shared image, for its acquire and release
         SluiceFrameStats stats{};

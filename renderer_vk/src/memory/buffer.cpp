@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <utility>
+#include <vector>
 
 #include "device/structs.hpp"
 
@@ -37,6 +38,13 @@ Result<Buffer> Buffer::create(const Device& device, const BufferDesc& desc) {
     auto info = vkStruct<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
     info.size = desc.size;
     info.usage = desc.usage;
+    const std::vector<std::uint32_t> families =
+        desc.both_queues ? device.sharingFamilies() : std::vector<std::uint32_t>{};
+    if (!families.empty()) {
+        info.sharingMode = VK_SHARING_MODE_CONCURRENT;
+        info.queueFamilyIndexCount = static_cast<std::uint32_t>(families.size());
+        info.pQueueFamilyIndices = families.data();
+    }
     const std::string label = fmt::format("buffer '{}' of {} bytes", desc.name, desc.size);
     if (const VkResult result = device.fn.vkCreateBuffer(device.handle, &info, nullptr, &out.buffer_);
         result != VK_SUCCESS) {

@@ -24,6 +24,7 @@ struct BufferDesc {
     VkBufferUsageFlags usage = 0;
     BufferPlace place = BufferPlace::Device;
     const char* name = "";
+    bool both_queues = false;  ///< used on the device's queue and on that of its computeView()
 };
 
 /// Move-only; must die before its Device, and only when no submitted work uses it.

@@ -215,7 +215,7 @@ Status FluidRecorder::prepare(const Plan& plan) {
                 return status;
             }
         }
-        state_->device.fn.vkDeviceWaitIdle(state_->device.handle);
+        (void)state_->device.waitIdle();
         state_->images.surface_tiles = std::move(lists[0]);
         state_->images.thickness_tiles = std::move(lists[1]);
         for (std::size_t index = 0; index < state_->images.own.size(); ++index) {
@@ -240,7 +240,7 @@ Status FluidRecorder::setEnvironment(const SluiceEnvironment* environment) {
         }
         map = std::move(made).value();
     }
-    state_->device.fn.vkDeviceWaitIdle(state_->device.handle);
+    (void)state_->device.waitIdle();
     state_->images.own[static_cast<std::size_t>(PlanImage::Environment)] = std::move(map);
     return {};
 }

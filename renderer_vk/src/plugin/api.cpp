@@ -8,6 +8,7 @@
 #include "plugin/arguments.hpp"
 #include "plugin/prove.hpp"
 #include "plugin/renderer.hpp"
+#include "plugin/simulation_api.hpp"
 #include "sluice/abi_boundary.hpp"
 #include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
@@ -275,7 +276,11 @@ constexpr SluiceRendererApi kApi = {sizeof(SluiceRendererApi),
                                     timelineValue,
                                     timelineExport,
                                     probeFormat,
-                                    destroy};
+                                    destroy,
+                                    setSimulation,
+                                    simulate,
+                                    simulationWait,
+                                    simulationStats};
 
 }  // namespace
 

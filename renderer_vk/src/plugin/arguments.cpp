@@ -154,7 +154,8 @@ Status checkFrameOrder(const SluiceFrame& frame, const FrameExpectation& expecte
 }
 
 Status checkFrameValues(const SluiceFrame& frame, const FrameExpectation& expected) {
-    if ((frame.flags & ~std::uint32_t{SLUICE_FRAME_SKIP_WAIT}) != 0) {
+    constexpr std::uint32_t kFlags = SLUICE_FRAME_SKIP_WAIT | SLUICE_FRAME_SKIP_SIMULATION_WAIT;
+    if ((frame.flags & ~kFlags) != 0) {
         return invalid("frame.flags", fmt::format("{:#x} has bits that are not SluiceFrameFlags", frame.flags));
     }
     if (const std::uint32_t unshared = frame.outputs & ~(expected.outputs | kAlwaysMadeFluidRoles); unshared != 0) {

@@ -148,6 +148,44 @@ Status SluiceRenderer::setEnvironment(const SluiceEnvironment* environment) {
     return {};
 }
 
+Status SluiceRenderer::setSimulation(const LiveSetup* setup) {
+    if (Status status = frames_->waitForAll(); !status) {
+        return status;
+    }
+    simulation_.reset();
+    if (setup == nullptr) {
+        return {};
+    }
+    Result<std::unique_ptr<LiveSimulation>> made = LiveSimulation::create(*device_, *timeline_, Tracer(host_), *setup);
+    if (!made) {
+        return made.error();
+    }
+    simulation_ = std::move(made).value();
+    return {};
+}
+
+Status SluiceRenderer::simulate(std::uint64_t value, double seconds) {
+    if (!simulation_) {
+        return noSimulation("simulate");
+    }
+    return simulation_->simulate(value, seconds);
+}
+
+Result<FrameFluid> SluiceRenderer::fluidOf(const SluiceFrame& frame) {
+    if (frame.simulation == 0) {
+        return FrameFluid{particles_, {}};
+    }
+    if (!simulation_) {
+        return noSimulation("frame.simulation");
+    }
+    const Result<SimulatedFluid> fluid =
+        simulation_->fluid(frame.simulation, (frame.flags & SLUICE_FRAME_SKIP_SIMULATION_WAIT) != 0);
+    if (!fluid) {
+        return fluid.error();
+    }
+    return FrameFluid{nullptr, fluid.value()};
+}
+
 Status SluiceRenderer::submitFrame(const SluiceFrame& frame) {
     FrameExpectation expected;
     expected.submitted = submitted_;
@@ -180,6 +218,9 @@ Status SluiceRenderer::preparePlan(const SluiceFrame& frame) {
     needs.width = info_.width;
     needs.height = info_.height;
     needs.particle_count = particles_ ? particles_->count : 0;
+    if (frame.simulation != 0 && simulation_) {
+        needs.particle_count = simulation_->particles();
+    }
     needs.has_environment_map = has_environment_ ? 1 : 0;
     needs.outputs = frame.outputs;
     needs.fluid = frame.fluid;
@@ -206,10 +247,17 @@ Status SluiceRenderer::recordAndSubmit(const SluiceFrame& frame) {
     const PassRecorder record = [&](VkCommandBuffer commands, const ParticleBuffers& particles, PassTimer& timer) {
         return recorder_->record(commands, frame, *plan_, targets, particles, timer);
     };
-    if (Status status = frames_->submit(frame, *images_, particles_, record); !status) {
+    const Result<FrameFluid> fluid = fluidOf(frame);
+    if (!fluid) {
+        return fluid.error();
+    }
+    if (Status status = frames_->submit(frame, *images_, fluid.value(), record); !status) {
         return status;
     }
     submitted_ = frame.frame;
+    if (frame.simulation != 0) {
+        simulation_->drawn(frame.simulation, frame.signal_value);
+    }
     if (info_.timeline == SLUICE_TIMELINE_FINISH) {
         return frames_->waitForAll();
     }
@@ -231,6 +279,9 @@ SluiceResult SluiceRenderer::poll(std::uint64_t frame, SluiceFrameStats& stats) 
 void SluiceRenderer::destroy(std::unique_ptr<SluiceRenderer> renderer) {
     if (!renderer || !renderer->timeline_) {
         return;
+    }
+    if (renderer->simulation_) {
+        renderer->simulation_->stop();  // or frames might wait for it for ever
     }
     if (renderer->timeline_->drain(kGraceNs) != Drained::Stuck) {
         renderer->frames_->collect();

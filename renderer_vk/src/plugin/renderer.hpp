@@ -11,6 +11,7 @@
 #include "frame/frame_ring.hpp"
 #include "frame/particle_store.hpp"
 #include "frame/shared_images.hpp"
+#include "live/live_simulation.hpp"
 #include "passes/fluid_recorder.hpp"
 #include "plan/plan.hpp"
 #include "sluice/plugin.h"
@@ -31,6 +32,11 @@ struct SluiceRenderer {
     [[nodiscard]] sluice::Status resize(std::uint32_t width, std::uint32_t height);
     [[nodiscard]] sluice::Status setParticles(const SluiceParticles& particles);
     [[nodiscard]] sluice::Status setEnvironment(const SluiceEnvironment* environment);
+    /// Null ends the simulation.
+    [[nodiscard]] sluice::Status setSimulation(const sluice::vk::LiveSetup* setup);
+    [[nodiscard]] sluice::Status simulate(std::uint64_t value, double seconds);
+    /// Null without one.
+    [[nodiscard]] const sluice::vk::LiveSimulation* simulation() const { return simulation_.get(); }
     /// Everything about the frame is checked here.
     [[nodiscard]] sluice::Status submitFrame(const SluiceFrame& frame);
     [[nodiscard]] SluiceResult poll(std::uint64_t frame, SluiceFrameStats& stats);
@@ -45,6 +51,7 @@ struct SluiceRenderer {
     [[nodiscard]] sluice::Status createImages(std::uint32_t width, std::uint32_t height);
     [[nodiscard]] sluice::Status quiesce();
     [[nodiscard]] sluice::Status preparePlan(const SluiceFrame& frame);
+    [[nodiscard]] sluice::Result<sluice::vk::FrameFluid> fluidOf(const SluiceFrame& frame);
     [[nodiscard]] sluice::Status recordAndSubmit(const SluiceFrame& frame);
 
     SluiceHostServices host_{};  ///< a copy, so that a shorter table of an older host has its end as NULL
@@ -55,6 +62,7 @@ struct SluiceRenderer {
     /// Retired by a resize that could not wait for the frames that use them.
     std::vector<std::unique_ptr<sluice::vk::SharedImages>> abandoned_;
     std::shared_ptr<sluice::vk::ParticleSet> particles_;
+    std::unique_ptr<sluice::vk::LiveSimulation> simulation_;
     std::unique_ptr<sluice::vk::FrameRing> frames_;
     std::optional<sluice::vk::Plan> plan_;  ///< the recorder's
     bool has_environment_ = false;

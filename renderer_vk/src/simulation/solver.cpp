@@ -148,6 +148,9 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
         total.drained += report.value().drained;
         total.shortest = std::min(total.shortest, dt);
         total.speed = std::max(total.speed, s.speed);
+        if (s.watch) {
+            s.watch(report.value());
+        }
         left = dt < left * (1.0 - 1e-9) ? left - dt : 0.0;
         most = seconds;
     }
@@ -160,6 +163,17 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
             "particles that lie in one another or in a solid, a speed or a depth beyond reason, do this"};
     }
     return total;
+}
+
+void Solver::watchSteps(std::function<void(const StepReport&)> watch) {
+    state_->watch = std::move(watch);
+}
+
+DeviceParticles Solver::onDevice() const {
+    const State& s = *state_;
+    return {s.buffers[s.odd ? Slot::PositionOut : Slot::PositionIn].buffer(),
+            s.buffers[s.odd ? Slot::VelocityOut : Slot::VelocityIn].buffer(),
+            s.buffers[s.odd ? Slot::IdentityOut : Slot::IdentityIn].buffer(), s.counts.entries};
 }
 
 std::uint32_t Solver::count() const {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -41,6 +42,13 @@ struct AdvanceReport {
     std::uint64_t born = 0, blocked = 0, drained = 0;  ///< particles
 };
 
+/// The state as it lies on the device, in the solver's own order; `identity` says whose each entry is.
+struct DeviceParticles {
+    VkBuffer position = VK_NULL_HANDLE, velocity = VK_NULL_HANDLE;  ///< four floats each, the last is nothing
+    VkBuffer identity = VK_NULL_HANDLE;
+    std::uint32_t count = 0;
+};
+
 /// Every neighbour list, for tests: `list[i]` holds the identities of the neighbours of the particle with identity i.
 struct NeighbourLists {
     std::vector<std::vector<std::uint32_t>> list;
@@ -66,7 +74,12 @@ class Solver {
     /// state is then that of the last good step.
     [[nodiscard]] Result<AdvanceReport> advance(double seconds, double longest);
 
+    /// Called after each step of advance() that is kept, on its thread.
+    void watchSteps(std::function<void(const StepReport&)> watch);
+
     [[nodiscard]] std::uint32_t count() const;
+    /// Until the next call that changes the state. Its last writes are those of a compute shader.
+    [[nodiscard]] DeviceParticles onDevice() const;
     /// Seconds that were simulated since setParticles.
     [[nodiscard]] double time() const;
     /// Those that live, in the order in which they were given; then the others in the order of their birth.

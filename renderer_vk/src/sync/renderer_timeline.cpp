@@ -195,7 +195,7 @@ void RendererTimeline::force(std::uint64_t from, std::uint64_t through) {
 }
 
 Drained RendererTimeline::idle() const {
-    return device_.fn.vkQueueWaitIdle(device_.queue) == VK_SUCCESS ? Drained::Idle : Drained::Lost;
+    return device_.waitIdle() == VK_SUCCESS ? Drained::Idle : Drained::Lost;
 }
 
 std::uint64_t RendererTimeline::graceOf(SluiceTimelineKind kind, std::uint64_t grace_ns) {

@@ -150,7 +150,11 @@ EXPORT const SluiceRendererApi* sluice_renderer_entry(uint32_t abi_version) {
                                      timeline_value,
                                      timeline_export,
                                      probe_format,
-                                     destroy};
+                                     destroy,
+                                     NULL,
+                                     NULL,
+                                     NULL,
+                                     NULL};
     api = table;
 #ifdef SLUICE_BREAK_ABI_MAJOR
     api.abi_version = SLUICE_MAKE_ABI(SLUICE_ABI_MAJOR + 1u, 0u);

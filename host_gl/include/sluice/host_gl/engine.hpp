@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -40,6 +41,16 @@ struct MovingBody {
     std::array<float, 4> turn;  ///< unit quaternion (x, y, z, w) from its axes to the world's
 };
 
+/// A square-woven cloth that hangs from a line and moves in the wind: the engine's own physics, stepped on its thread.
+/// A step costs about cells^2 * iterations.
+inline constexpr std::uint32_t kMostBannerCells = 256;
+struct Banner {
+    Vec3 from, to;
+    float drop;
+    std::uint32_t cells;       ///< threads each way
+    std::uint32_t iterations;  ///< of the relaxation, a step
+};
+
 /// What stands in the scene. Lengths in metres, +y up.
 struct EngineScene {
     float floor_height = 0.0F;
@@ -48,6 +59,7 @@ struct EngineScene {
     std::vector<Pillar> pillars;
     std::vector<Crate> crates;
     std::vector<Basin> basins;
+    std::vector<Banner> banners;
     /// Added to every lit surface, in sRGB-encoded values as the engine works in them.
     Vec3 ambient{0.35F, 0.37F, 0.42F};
     float enclosure_height = 3.0F;  ///< of the arcaded wall around the floor's edge; 0 leaves it out
@@ -61,6 +73,9 @@ class LegacyEngine {
     LegacyEngine(LegacyEngine&&) noexcept;
     LegacyEngine& operator=(LegacyEngine&&) noexcept;
     ~LegacyEngine();
+
+    /// One step of what moves by itself: the banners. Plain work of the calling thread; no GL.
+    void animate(float seconds);
 
     /// Clears colour, depth and stencil and draws one frame. Leaves all other state as it found it (needs one free
     /// level of the attribute and matrix stacks). Fixed-function state is set, but no program, sampler or vertex array

@@ -12,7 +12,8 @@
 
 namespace sluice::host {
 
-/// Everything but SkipWait of HOST_TO_RENDERER, which the renderer leaves out, is done on the host's side.
+/// Everything but SkipWait of HOST_TO_RENDERER and of SIMULATION_TO_RENDERER, which the renderer leaves out, is done on
+/// the host's side.
 enum class FaultKind : std::uint8_t {
     Drop,           ///< the signal is never given; RENDERER_TO_HOST: the host never sees it
     Delay,          ///< it comes late
@@ -50,6 +51,9 @@ struct FaultPlan {
 
 /// Duplicate and Swap are about signals, and the renderer's are its own; EarlyReuse is about the host's wait.
 [[nodiscard]] constexpr bool possible(FaultKind kind, SluiceDirection direction) {
+    if (direction == SLUICE_SIMULATION_TO_RENDERER) {
+        return kind == FaultKind::SkipWait;
+    }
     return direction == SLUICE_HOST_TO_RENDERER
                ? kind != FaultKind::EarlyReuse
                : kind != FaultKind::Duplicate && kind != FaultKind::Swap && !ofProcess(kind);

@@ -52,7 +52,8 @@ struct FrameInput {
     SluiceSky sky{};
     SluiceFluid fluid{};
     std::uint32_t outputs = 0;
-    std::uint32_t flags = 0;  ///< SluiceFrameFlags
+    std::uint32_t flags = 0;       ///< SluiceFrameFlags
+    std::uint64_t simulation = 0;  ///< the value of the simulation to draw; 0: the particles of setParticles
     /// CLOCK_MONOTONIC when the engine began to draw this frame, or 0: with it, the ledger's log shows that draw.
     std::uint64_t draw_began_ns = 0;
 };
@@ -63,9 +64,10 @@ struct FrameInput {
 ///
 /// A renderer that has become useless (its device is lost, a resize found no memory, deadlines pass in a row ...) is
 /// destroyed and created again by submit(), as FluidHostConfig::recovery says; that submit() takes as long as create()
-/// does. Until then submit() fails, at once, and the frames are the host's alone. The new renderer gets the particles
-/// and the environment that were set last, of which the FluidHost keeps a copy; what it refuses of them is dropped.
-/// What happens is logged, a line each.
+/// does. Until then submit() fails, at once, and the frames are the host's alone. The new renderer gets the particles,
+/// the environment and the simulation that were set last, of which the FluidHost keeps a copy; what it refuses of them is
+/// dropped. What had flowed is lost with the renderer: the simulation begins again from its initial state. What happens
+/// is logged, a line each.
 ///
 /// A GL context that is lost (contextLoss()) ends the FluidHost: every call says so, and nothing more is asked of GL
 /// but to free its objects. Make a context, and a FluidHost in it.
@@ -79,6 +81,17 @@ class FluidHost {
     [[nodiscard]] virtual Status resize(std::uint32_t width, std::uint32_t height) = 0;
     [[nodiscard]] virtual Status setParticles(const SluiceParticles& particles) = 0;
     [[nodiscard]] virtual Status setEnvironment(const SluiceEnvironment* environment) = 0;
+
+    /// A fluid that flows inside the renderer; nullptr ends it. UNSUPPORTED if the plugin serves ABI 1.0 only.
+    [[nodiscard]] virtual Status setSimulation(const SluiceSimulation* simulation) = 0;
+    /// Lets it flow for `seconds` more (0: not at all) and calls the result `value`, from 1 without gaps. Returns at
+    /// once: what the host does before it submits a frame of that value runs beside it. Ask for no more than
+    /// frames_in_flight values ahead of the frames.
+    [[nodiscard]] virtual Status simulate(std::uint64_t value, double seconds) = 0;
+    /// Until the simulation has reached `value`; SLUICE_TIMEOUT.
+    [[nodiscard]] virtual Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) = 0;
+    /// Values are those of the present renderer.
+    [[nodiscard]] virtual Result<SluiceSimulationStats> simulationStats() = 0;
 
     /// Copies colour and depth of the screen into the next image set on the GPU, signals, and submits frame k.
     /// On failure the host's frame is untouched and the next call starts a new frame.

@@ -166,6 +166,34 @@ struct Destroy : Carries<0, 0> {
     static void fields(Io& /*io*/, Self& /*m*/) {}
 };
 
+/// Without memory: the simulation ends. With it, in this order: solids, positions, velocities.
+struct SetSimulation : Carries<0, 1> {
+    static constexpr std::string_view kName = "set_simulation";
+    std::uint32_t has_velocity = 0;
+    SluiceSimulation simulation{};  ///< its pointers say nothing here
+    template <typename Io, typename Self>
+    static void fields(Io& io, Self& m) {
+        io.number(m.has_velocity);
+        io.abi(m.simulation);
+    }
+};
+struct Simulate : Carries<0, 0> {
+    static constexpr std::string_view kName = "simulate";
+    std::uint64_t value = 0;
+    double seconds = 0.0;
+    template <typename Io, typename Self>
+    static void fields(Io& io, Self& m) {
+        io.number(m.value);
+        io.number(m.seconds);
+    }
+};
+/// simulation_wait is this, asked again and again: a call that waits would hold up all others.
+struct SimulationStats : Carries<0, 0> {
+    static constexpr std::string_view kName = "simulation_stats";
+    template <typename Io, typename Self>
+    static void fields(Io& /*io*/, Self& /*m*/) {}
+};
+
 // ---- renderer to host.
 
 /// The answer to Hello: what the plugin is.
@@ -186,7 +214,9 @@ struct Returned : Carries<0, 1> {
     std::int32_t result = 0;  ///< SluiceResult
     std::uint64_t value = 0;
     std::string message;
-    std::variant<std::monostate, SluiceRendererCapabilities, SluiceRendererInfo, SluiceFrameStats> filled;
+    std::variant<std::monostate, SluiceRendererCapabilities, SluiceRendererInfo, SluiceFrameStats,
+                 SluiceSimulationStats>
+        filled;
     template <typename Io, typename Self>
     static void fields(Io& io, Self& m) {
         io.result(m.result);
@@ -281,9 +311,10 @@ struct Answer : Carries<0, 0> {
 };
 
 /// The number of a kind on the wire is its place here, so kinds are only ever appended.
-using Message = std::variant<Hello, Describe, Explain, Create, Info, Resize, SetParticles, SetEnvironment, SubmitFrame,
-                             Poll, TimelineValue, TimelineExport, ProbeFormat, Destroy, Welcome, Returned, Log,
-                             TraceEvents, Line, ShareImage, RetireImage, Canary, Answer>;
+using Message =
+    std::variant<Hello, Describe, Explain, Create, Info, Resize, SetParticles, SetEnvironment, SubmitFrame, Poll,
+                 TimelineValue, TimelineExport, ProbeFormat, Destroy, Welcome, Returned, Log, TraceEvents, Line,
+                 ShareImage, RetireImage, Canary, Answer, SetSimulation, Simulate, SimulationStats>;
 
 [[nodiscard]] std::string_view nameOf(const Message& message);
 

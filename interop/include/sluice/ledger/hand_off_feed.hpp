@@ -9,6 +9,10 @@
 // of its own and no Submit event: by the time that the queue's events of frame k arrive the host may have submitted
 // frame k+1, and what it knew then is not what frame k was given.
 //
+// A simulation inside the renderer is an actor of its own, that signals its timeline and writes output slots. It waits
+// for frames by the renderer's timeline; here that is a counter of its own, since the images' one makes only listed
+// images visible where OpenGL waits for it.
+//
 // Submissions, GL fences, calls of glFinish and of the renderer until it is idle are counted, and each of the counters
 // is a timeline: that says as much as an object for each, and the ledger forgets what is past.
 #pragma once
@@ -24,13 +28,18 @@
 
 namespace sluice::ledger {
 
-inline constexpr ActorId kHostThread = 0, kGlStream = 1, kRendererQueue = 2, kBridgeThread = 3;
+inline constexpr ActorId kHostThread = 0, kGlStream = 1, kRendererQueue = 2, kBridgeThread = 3, kSimulationQueue = 4;
 inline constexpr ObjectId kHostToRenderer = 0, kRendererToHost = 1, kSubmissions = 2, kGlFences = 3, kGlFinishes = 4,
-                          kQueueDrains = 5, kPromises = 6;
+                          kQueueDrains = 5, kPromises = 6, kSimulation = 7, kFramesDone = 8;
 
 /// The resource that stands for a shared image.
 [[nodiscard]] constexpr ObjectId resourceOf(std::uint32_t role, std::uint32_t image_set) {
     return image_set * SLUICE_MAX_IMAGE_ROLES + role;
+}
+
+/// The resource that stands for an output slot of the simulation.
+[[nodiscard]] constexpr ObjectId slotResource(std::uint64_t slot) {
+    return resourceOf(0, SLUICE_MAX_IMAGE_SETS) + static_cast<ObjectId>(slot);
 }
 
 /// Any thread. `begin_ns` is CLOCK_MONOTONIC; the other events are given the time of the call.
@@ -47,6 +56,9 @@ class HandOffFeed {
     void imagesMade(std::uint32_t roles);
     /// The images are gone. GL had been finished before. `drained`: and the renderer had waited for its queue.
     void imagesDestroyed(bool drained);
+
+    /// The renderer has a simulation, the first or another; value v lies in slot v mod `slots`.
+    void simulationMade(std::uint32_t slots);
 
     // Host's side, in the order of a frame. Frame k uses set (k-1) mod N.
 
@@ -105,6 +117,7 @@ class HandOffFeed {
     void queueUntold();
     void queueBegins(std::uint64_t frame, std::uint64_t begin_ns);
     void queueTouches(std::uint64_t frame, std::uint64_t begin_ns);
+    void simulationTold(const SluiceTraceEvent& event);
 
     /// What is remembered of a frame in flight, for the times of events that are told later.
     struct FrameTimes {
@@ -129,6 +142,7 @@ class HandOffFeed {
     std::uint64_t bridged_ = 0;          ///< fences that the bridge has waited for, in their order
     std::uint64_t unheard_ = 0;          ///< submissions since the queue's last signal
     std::uint64_t taken_ = 0;            ///< submissions that did not fail
+    std::uint32_t slots_ = 0;            ///< of the simulation, 0: there is none
     bool heard_ = false;                 ///< the queue was, at least once
     bool blind_ = false;
 };

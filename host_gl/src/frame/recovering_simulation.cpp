@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// A simulation over one renderer after the other.
+#include <fmt/format.h>
+
+#include "frame/recovering_host.hpp"
+
+namespace sluice::host {
+
+Status RecoveringHost::setSimulation(const SluiceSimulation* simulation) {
+    return caught([&] {
+        Status status = give([&] { return life_->setSimulation(simulation); }, simulation);
+        asked_ = 0;
+        simulation_base_ = 0;
+        return status;
+    });
+}
+
+Status RecoveringHost::simulate(std::uint64_t value, double seconds) {
+    return caught([&]() -> Status {
+        if (value != asked_ + 1) {
+            return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulate",
+                         fmt::format("value {} came after {}, {} was expected", value, asked_, asked_ + 1),
+                         "number values from 1 without gaps"};
+        }
+        if (recovery_.down()) {
+            asked_ = value;  // nothing flows without a renderer
+            return {};
+        }
+        Status status = judged(life_->simulate(simulatedHere(value), seconds));
+        if (status || recovery_.down()) {
+            asked_ = value;
+        }
+        return status;
+    });
+}
+
+Status RecoveringHost::waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) {
+    return caught([&]() -> Status {
+        if (recovery_.down()) {
+            return whileDown("simulation_wait");
+        }
+        return judged(life_->waitForSimulation(simulatedHere(value), timeout_ns));
+    });
+}
+
+Result<SluiceSimulationStats> RecoveringHost::simulationStats() {
+    SluiceSimulationStats found{};
+    const Status status = caught([&]() -> Status {
+        if (recovery_.down()) {
+            return whileDown("simulation_stats");
+        }
+        Result<SluiceSimulationStats> stats = life_->simulationStats();
+        if (!stats) {
+            return stats.error();
+        }
+        found = stats.value();
+        return {};
+    });
+    if (!status) {
+        return status.error();
+    }
+    return found;
+}
+
+Status RecoveringHost::simulateAgain(const SluiceSimulation& simulation) {
+    if (Status status = life_->setSimulation(&simulation); !status || asked_ == 0) {
+        return status;
+    }
+    simulation_base_ = asked_ - 1;
+    log(SLUICE_LOG_WARNING,
+        fmt::format("simulation: what had flowed went with the renderer; from value {} on it begins again", asked_));
+    return life_->simulate(1, 0.0);
+}
+
+std::uint64_t RecoveringHost::simulatedHere(std::uint64_t value) const {
+    if (value == 0) {
+        return 0;
+    }
+    return value > simulation_base_ ? value - simulation_base_ : 1;
+}
+
+}  // namespace sluice::host

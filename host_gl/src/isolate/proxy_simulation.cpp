@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "isolate/proxy_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "isolate/proxy_parts.hpp"
+#include "sluice/abi_boundary.hpp"
+#include "sluice/isolate/sealed_memory.hpp"
+#include "sluice/trace.hpp"
+
+namespace sluice::host::proxy {
+
+namespace {
+
+// Short against a frame, long against a message and its answer.
+constexpr std::chrono::microseconds kAskAgain{500};
+
+SluiceResult setSimulation(SluiceRenderer* renderer, const SluiceSimulation* simulation, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        RendererProcess& process = *of(renderer)->process;
+        if (simulation == nullptr) {
+            isolate::SetSimulation call;
+            call.simulation = sized<SluiceSimulation>();
+            return simply(process, call, "set_simulation", {});
+        }
+        if (Status status = checkAbiStruct(simulation, "simulation"); !status) {
+            return status;
+        }
+        const SluiceSimulation given = readAbiStruct(*simulation);
+        if (given.position == nullptr || (given.solids == nullptr && given.solid_count > 0)) {
+            return isNull("simulation.position or simulation.solids");
+        }
+        isolate::SetSimulation call;
+        call.simulation = given;
+        call.simulation.solids = nullptr;
+        call.simulation.position = call.simulation.velocity = nullptr;
+        call.has_velocity = given.velocity != nullptr ? 1 : 0;
+        const std::size_t floats = std::size_t{3} * given.particle_count;
+        const Result<UniqueFd> copy =
+            isolate::sealedCopy({std::as_bytes(std::span(given.solids, given.solid_count)),
+                                 std::as_bytes(std::span(given.position, floats)),
+                                 std::as_bytes(std::span(given.velocity, given.velocity != nullptr ? floats : 0))});
+        if (!copy) {
+            return copy.error();
+        }
+        const int fd = copy.value().get();
+        return simply(process, call, fmt::format("set_simulation of {} particles", given.particle_count), {},
+                      std::span(&fd, 1));
+    });
+}
+
+SluiceResult simulate(SluiceRenderer* renderer, std::uint64_t value, double seconds, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        return simply(*of(renderer)->process, isolate::Simulate{{}, value, seconds},
+                      fmt::format("simulate of value {}", value), {});
+    });
+}
+
+SluiceResult simulationStats(SluiceRenderer* renderer, SluiceSimulationStats* stats) {
+    return guarded(nullptr, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (Status status = checkAbiStruct(stats, "stats"); !status) {
+            return status;
+        }
+        Result<Reply> reply = of(renderer)->process->call(isolate::SimulationStats{}, {}, "simulation_stats", {});
+        return reply ? filledBy(reply.value().returned, stats, "stats") : Status{reply.error()};
+    });
+}
+
+SluiceResult simulationWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns) {
+    const std::uint64_t began = monotonicNanoseconds();
+    for (;;) {
+        auto stats = sized<SluiceSimulationStats>();
+        if (const SluiceResult result = simulationStats(renderer, &stats); result != SLUICE_OK) {
+            return result;
+        }
+        if (stats.reached >= value) {
+            return SLUICE_OK;
+        }
+        if (monotonicNanoseconds() - began >= timeout_ns) {
+            return SLUICE_TIMEOUT;
+        }
+        std::this_thread::sleep_for(kAskAgain);
+    }
+}
+
+}  // namespace
+
+void addSimulation(SluiceRendererApi& table) {
+    table.set_simulation = setSimulation;
+    table.simulate = simulate;
+    table.simulation_wait = simulationWait;
+    table.simulation_stats = simulationStats;
+}
+
+}  // namespace sluice::host::proxy

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: MIT
+#include "live/live_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <exception>
+#include <system_error>
+#include <utility>
+
+#include "device/structs.hpp"
+#include "sluice/trace.hpp"
+#include "sync/binary_pool.hpp"
+
+namespace sluice::vk {
+namespace {
+
+/// How often a wait of the thread looks whether it has to end.
+constexpr std::uint64_t kLookNs = 50'000'000;
+constexpr std::uint64_t kBytesOfParticle = 6 * sizeof(float);
+constexpr const char* kFluidName = "SIMULATED_FLUID";
+
+}  // namespace
+
+Error noSimulation(const char* call) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, call, "there is no simulation", "call set_simulation first"};
+}
+
+LiveSimulation::LiveSimulation(const RendererTimeline& timeline, const Tracer& tracer, std::unique_ptr<Device> device,
+                               const LiveSetup& setup)
+    : timeline_(timeline),
+      tracer_(tracer),
+      device_(std::move(device)),
+      longest_step_(setup.longest_step),
+      particle_count_(static_cast<std::uint32_t>(setup.position.size() / 3)),
+      readers_(setup.frames_in_flight + 1) {
+    stats_.struct_size = sizeof(stats_);
+    stats_.particle_count = particle_count_;
+}
+
+Result<std::unique_ptr<LiveSimulation>> LiveSimulation::create(const Device& device, const RendererTimeline& timeline,
+                                                               const Tracer& tracer, const LiveSetup& setup) {
+    auto made = std::make_unique<LiveSimulation>(timeline, tracer, device.computeView(), setup);
+    made->stats_.own_queue = device.compute_queue != VK_NULL_HANDLE ? 1 : 0;
+    if (Status status = made->start(setup); !status) {
+        return status.error();
+    }
+    device.log(SLUICE_LOG_INFO,
+               fmt::format("simulation of {} particles on {}, {} output slots", made->particle_count_,
+                           made->oneQueue() ? "the queue of the frames" : "a queue of its own", made->slots_->count()));
+    return made;
+}
+
+Status LiveSimulation::start(const LiveSetup& setup) {
+    Result<VkSemaphore> semaphore =
+        createSemaphore(*device_, VK_SEMAPHORE_TYPE_TIMELINE, false, "timeline simulation to renderer");
+    if (!semaphore) {
+        return semaphore.error();
+    }
+    semaphore_ = semaphore.value();
+    Result<std::unique_ptr<Solver>> solver = Solver::create(*device_, setup.settings);
+    if (!solver) {
+        return solver.error();
+    }
+    solver_ = std::move(solver).value();
+    if (Status status = solver_->setParticles(setup.position, setup.velocity); !status) {
+        return status;
+    }
+    Result<std::unique_ptr<OutputSlots>> slots =
+        OutputSlots::create(*device_, setup.frames_in_flight + 1, particle_count_, setup.settings.radius);
+    if (!slots) {
+        return slots.error();
+    }
+    slots_ = std::move(slots).value();
+    try {
+        thread_ = std::thread([this] { run(); });
+    } catch (const std::system_error& why) {
+        return Error{SLUICE_ERROR_OUT_OF_MEMORY, "simulation", fmt::format("no thread can be started: {}", why.what()),
+                     ""};
+    }
+    return {};
+}
+
+LiveSimulation::~LiveSimulation() {
+    stop();
+    if (thread_.joinable()) {
+        thread_.join();
+    }
+    solver_.reset();
+    slots_.reset();
+    device_->fn.vkDestroySemaphore(device_->handle, semaphore_, nullptr);
+}
+
+bool LiveSimulation::oneQueue() const {
+    return stats_.own_queue == 0;
+}
+
+void LiveSimulation::stop() {
+    const std::lock_guard lock(mutex_);
+    stop_ = true;
+    changed_.notify_all();
+}
+
+bool LiveSimulation::stopping() const {
+    const std::lock_guard lock(mutex_);
+    return stop_;
+}
+
+Status LiveSimulation::simulate(std::uint64_t value, double seconds) {
+    const std::lock_guard lock(mutex_);
+    if (value != stats_.asked + 1) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulate",
+                     fmt::format("value {} came after {}, {} was expected", value, stats_.asked, stats_.asked + 1),
+                     "number values from 1 without gaps"};
+    }
+    if (stop_) {
+        return Error{SLUICE_ERROR_INTERNAL, "simulate", "the simulation's thread has ended",
+                     "call set_simulation again"};
+    }
+    requests_.push_back({value, seconds});
+    stats_.asked = value;
+    changed_.notify_all();
+    return {};
+}
+
+Result<SimulatedFluid> LiveSimulation::fluid(std::uint64_t value, bool skip_wait) {
+    std::unique_lock lock(mutex_);
+    if (value == 0 || value > stats_.asked || value + slots_->count() <= stats_.asked) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "frame.simulation",
+                     fmt::format("value {} cannot be drawn: {} have been asked for, and the last {} of them are kept",
+                                 value, stats_.asked, slots_->count()),
+                     "call simulate first, and no more than frames_in_flight values ahead of the frames"};
+    }
+    if (oneQueue() && !skip_wait) {
+        // Every work of the thread has a bound, and the thread says so when it ends.
+        changed_.wait(lock, [&] { return submitted_ >= value || stop_; });
+    }
+    return SimulatedFluid{slots_->buffers(value), value, semaphore_, !skip_wait};
+}
+
+void LiveSimulation::drawn(std::uint64_t value, std::uint64_t signal_value) {
+    const std::lock_guard lock(mutex_);
+    std::uint64_t& reader = readers_[value % readers_.size()];
+    reader = std::max(reader, signal_value);
+}
+
+SluiceResult LiveSimulation::wait(std::uint64_t value, std::uint64_t timeout_ns) const {
+    auto info = vkStruct<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
+    info.semaphoreCount = 1;
+    info.pSemaphores = &semaphore_;
+    info.pValues = &value;
+    const VkResult result = device_->fn.vkWaitSemaphores(device_->handle, &info, timeout_ns);
+    if (result == VK_SUCCESS) {
+        return SLUICE_OK;
+    }
+    return result == VK_TIMEOUT ? SLUICE_TIMEOUT : vulkanError(result, "").code;
+}
+
+SluiceSimulationStats LiveSimulation::stats() const {
+    const std::uint64_t reached = counter();
+    const std::lock_guard lock(mutex_);
+    SluiceSimulationStats out = stats_;
+    out.reached = reached;
+    return out;
+}
+
+std::uint64_t LiveSimulation::counter() const {
+    std::uint64_t value = 0;
+    return device_->fn.vkGetSemaphoreCounterValue(device_->handle, semaphore_, &value) == VK_SUCCESS ? value : 0;
+}
+
+// ---- the simulation's thread
+
+std::optional<LiveSimulation::Request> LiveSimulation::next() {
+    std::unique_lock lock(mutex_);
+    changed_.wait(lock, [this] { return stop_ || !requests_.empty(); });
+    if (stop_) {
+        return std::nullopt;
+    }
+    const Request request = requests_.front();
+    requests_.pop_front();
+    return request;
+}
+
+void LiveSimulation::run() {
+    try {
+        while (const std::optional<Request> request = next()) {
+            reach(*request);
+        }
+    } catch (const std::exception& why) {
+        fail(counter() + 1, {SLUICE_ERROR_OUT_OF_MEMORY, "simulation", why.what(), ""});
+    }
+    std::uint64_t asked = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+        asked = stats_.asked;
+    }
+    // One by one; RendererTimeline::force() says why.
+    for (std::uint64_t value = counter() + 1; value <= asked; ++value) {
+        signalFromHere(value);
+    }
+    changed_.notify_all();
+}
+
+void LiveSimulation::reach(const Request& request) {
+    const std::uint64_t began = monotonicNanoseconds();
+    if (const Status moved = advance(request); !moved) {
+        fail(request.value, moved.error());
+    }
+    Status status = waitForFrames(request.value);
+    if (status && stopping()) {
+        return;
+    }
+    if (status) {
+        status = publish(request.value);
+    }
+    if (!status) {
+        fail(request.value, status.error());
+        signalFromHere(request.value);
+    }
+    const std::lock_guard lock(mutex_);
+    stats_.last_busy_ns = monotonicNanoseconds() - began;
+    stats_.busy_ns += stats_.last_busy_ns;
+    submitted_ = request.value;
+    changed_.notify_all();
+}
+
+Status LiveSimulation::advance(const Request& request) {
+    {
+        const std::lock_guard lock(mutex_);
+        if (stats_.failed != 0) {
+            return {};  // the last good state it is, from now on
+        }
+    }
+    if (request.seconds == 0.0) {
+        return {};
+    }
+    std::uint64_t step_began = tracer_.now();
+    solver_->watchSteps([&](const StepReport& /*report*/) {
+        const std::uint64_t now = tracer_.now();
+        tracer_.emit({SLUICE_TRACE_PASS, SLUICE_TRACK_SIMULATION, "step", step_began, now - step_began, request.value,
+                      request.value, 0, SLUICE_SIMULATION_TO_RENDERER});
+        step_began = now;
+    });
+    const Result<AdvanceReport> done = solver_->advance(request.seconds, longest_step_);
+    if (!done) {
+        return done.error();
+    }
+    const AdvanceReport& report = done.value();
+    const std::lock_guard lock(mutex_);
+    stats_.shortest_step = stats_.steps == 0 ? report.shortest : std::min(stats_.shortest_step, report.shortest);
+    stats_.steps += report.steps;
+    stats_.steps_taken_again += report.split;
+    stats_.fastest = std::max(stats_.fastest, report.speed);
+    return {};
+}
+
+Status LiveSimulation::waitForFrames(std::uint64_t value) const {
+    std::uint64_t reader = 0;
+    {
+        const std::lock_guard lock(mutex_);
+        reader = readers_[value % readers_.size()];
+    }
+    if (reader == 0) {
+        return {};
+    }
+    const std::uint64_t began = tracer_.now();
+    // In slices, so that the thread can end whatever becomes of that frame.
+    SluiceResult result = SLUICE_TIMEOUT;
+    while (result == SLUICE_TIMEOUT && !stopping()) {
+        result = timeline_.wait(reader, kLookNs);
+    }
+    if (result != SLUICE_OK && result != SLUICE_TIMEOUT) {
+        return Error{result, "simulation", fmt::format("the wait for frame {} failed", reader),
+                     "destroy the renderer and create it again"};
+    }
+    tracer_.emit({SLUICE_TRACE_WAIT, SLUICE_TRACK_SIMULATION, "slot free", began, tracer_.now() - began, value, reader,
+                  0, SLUICE_RENDERER_TO_HOST});
+    return {};
+}
+
+Status LiveSimulation::publish(std::uint64_t value) const {
+    const std::uint64_t began = tracer_.now();
+    auto signal = vkStruct<VkSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO);
+    signal.semaphore = semaphore_;
+    signal.value = value;
+    signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    const DeviceParticles state = solver_->onDevice();
+    if (Status status = slots_->publish(state, value, signal); !status) {
+        return status;
+    }
+    const std::uint64_t bytes = state.count * kBytesOfParticle;
+    const std::uint64_t end = tracer_.now();
+    tracer_.emit({SLUICE_TRACE_PASS, SLUICE_TRACK_SIMULATION, "publish", began, end - began, value, value, bytes,
+                  SLUICE_SIMULATION_TO_RENDERER});
+    tracer_.emit({SLUICE_TRACE_RELEASE, SLUICE_TRACK_SIMULATION, kFluidName, end, 0, value, value, bytes,
+                  SLUICE_SIMULATION_TO_RENDERER});
+    tracer_.emit({SLUICE_TRACE_SIGNAL, SLUICE_TRACK_SIMULATION, "simulation signals renderer", end, 0, value, value, 0,
+                  SLUICE_SIMULATION_TO_RENDERER});
+    return {};
+}
+
+void LiveSimulation::fail(std::uint64_t value, const Error& error) {
+    const std::string why = error.message();
+    {
+        const std::lock_guard lock(mutex_);
+        if (stats_.failed != 0) {
+            return;
+        }
+        stats_.failed = value;
+        const std::size_t length = std::min(why.size(), sizeof(stats_.message) - 1);
+        std::memcpy(&stats_.message[0], why.data(), length);
+        stats_.message[length] = '\0';
+    }
+    device_->log(SLUICE_LOG_ERROR,
+                 fmt::format("simulation: value {} and all later ones show the last good state: {}", value, why));
+}
+
+void LiveSimulation::signalFromHere(std::uint64_t value) const {
+    auto info = vkStruct<VkSemaphoreSignalInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SIGNAL_INFO);
+    info.semaphore = semaphore_;
+    info.value = value;
+    if (counter() < value) {
+        (void)device_->fn.vkSignalSemaphore(device_->handle, &info);
+    }
+}
+
+}  // namespace sluice::vk

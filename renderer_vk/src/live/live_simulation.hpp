@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// A fluid that flows on a thread of the renderer's while the host thinks, and what frames wait for to draw it.
+#pragma once
+
+#include <volk.h>
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "device/device.hpp"
+#include "frame/pass_context.hpp"
+#include "frame/tracer.hpp"
+#include "live/output_slots.hpp"
+#include "simulation/solver.hpp"
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+#include "sync/renderer_timeline.hpp"
+
+namespace sluice::vk {
+
+/// What `call` answers where there is none.
+[[nodiscard]] Error noSimulation(const char* call);
+
+/// What flows, and how.
+struct LiveSetup {
+    SimulationSettings settings;
+    std::vector<float> position, velocity;  ///< triples; velocity may be empty
+    double longest_step = 1.0;
+    std::uint32_t frames_in_flight = 1;
+};
+
+/// The fluid of one value, for one frame.
+struct SimulatedFluid {
+    ParticleBuffers particles;
+    std::uint64_t value = 0;
+    VkSemaphore semaphore = VK_NULL_HANDLE;
+    bool waits = true;  ///< false: a fault of tests
+};
+
+/// The solver looks at every step's outcome before the next one, so it needs a thread; that thread is the only one that
+/// uses the solver. Value v waits for the frames that drew value v - slots, which nobody may draw any more once v has
+/// been asked for. Pinned; device and timeline must outlive it. simulate(), fluid() and drawn() on the renderer's
+/// thread.
+class LiveSimulation {
+  public:
+    static Result<std::unique_ptr<LiveSimulation>> create(const Device& device, const RendererTimeline& timeline,
+                                                          const Tracer& tracer, const LiveSetup& setup);
+    LiveSimulation(const RendererTimeline& timeline, const Tracer& tracer, std::unique_ptr<Device> device,
+                   const LiveSetup& setup);
+    LiveSimulation(const LiveSimulation&) = delete;
+    LiveSimulation& operator=(const LiveSimulation&) = delete;
+    /// No submitted frame may use the slots any more. Waits for the step under way.
+    ~LiveSimulation();
+
+    [[nodiscard]] Status simulate(std::uint64_t value, double seconds);
+    /// Refused if `value` was not asked for or its slot may be overwritten. Where the device has one queue this waits
+    /// until the last work of `value` has been submitted: behind a frame that waits for it, it would never run.
+    [[nodiscard]] Result<SimulatedFluid> fluid(std::uint64_t value, bool skip_wait);
+    /// A frame that signals `signal_value` of the renderer's timeline draws `value`.
+    void drawn(std::uint64_t value, std::uint64_t signal_value);
+    [[nodiscard]] std::uint32_t particles() const { return particle_count_; }
+
+    /// No more values: the thread ends after the step under way, and every value that was asked for is signalled, so
+    /// that no frame waits for ever. Does not wait.
+    void stop();
+
+    // Any thread.
+    [[nodiscard]] SluiceResult wait(std::uint64_t value, std::uint64_t timeout_ns) const;
+    [[nodiscard]] SluiceSimulationStats stats() const;
+
+  private:
+    struct Request {
+        std::uint64_t value;
+        double seconds;
+    };
+
+    [[nodiscard]] Status start(const LiveSetup& setup);
+    [[nodiscard]] bool oneQueue() const;
+    [[nodiscard]] bool stopping() const;
+    [[nodiscard]] std::optional<Request> next();
+    void run();
+    void reach(const Request& request);
+    [[nodiscard]] Status advance(const Request& request);
+    [[nodiscard]] Status waitForFrames(std::uint64_t value) const;
+    [[nodiscard]] Status publish(std::uint64_t value) const;
+    void fail(std::uint64_t value, const Error& error);
+    void signalFromHere(std::uint64_t value) const;
+    [[nodiscard]] std::uint64_t counter() const;
+
+    const RendererTimeline& timeline_;
+    Tracer tracer_;
+    std::unique_ptr<Device> device_;  ///< a view, with the simulation's queue
+    double longest_step_;
+    std::uint32_t particle_count_;
+    VkSemaphore semaphore_ = VK_NULL_HANDLE;
+    std::unique_ptr<Solver> solver_;
+    std::unique_ptr<OutputSlots> slots_;
+
+    mutable std::mutex mutex_;  ///< guards all below
+    mutable std::condition_variable changed_;
+    std::deque<Request> requests_;
+    std::vector<std::uint64_t> readers_;  ///< by slot: signal value of the last frame that draws from it
+    bool stop_ = false;
+    std::uint64_t submitted_ = 0;  ///< last value whose last work has been submitted, or that failed for good
+    SluiceSimulationStats stats_{};
+    std::thread thread_;
+};
+
+}  // namespace sluice::vk

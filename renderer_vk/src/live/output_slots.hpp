@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Where the simulation leaves its fluid for the frames: a ring of buffers on the device, and the pass that fills one.
+#pragma once
+
+#include <volk.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "frame/pass_context.hpp"
+#include "memory/buffer.hpp"
+#include "passes/pipeline.hpp"
+#include "simulation/solver.hpp"
+
+namespace sluice::vk {
+
+/// Packed float triples, each particle in the place that it was given in. What else frames will read of a particle
+/// (anisotropy, whitewater) gets a buffer here.
+struct OutputSlot {
+    Buffer position, velocity;
+};
+
+/// Value v lies in slot v mod count(). Filled by the simulation's thread, read by frames. Pinned; dies before `device`,
+/// when no submitted work uses it.
+class OutputSlots {
+  public:
+    /// `device`: that of the solver, a computeView().
+    static Result<std::unique_ptr<OutputSlots>> create(const Device& device, std::uint32_t slots,
+                                                       std::uint32_t particles, float radius);
+    explicit OutputSlots(const Device& device) : device_(device) {}
+    OutputSlots(const OutputSlots&) = delete;
+    OutputSlots& operator=(const OutputSlots&) = delete;
+    ~OutputSlots();
+
+    /// Copies `state` into the slot of `value`, signals, and returns when the device has done it. No work under way may
+    /// use that slot.
+    [[nodiscard]] Status publish(const DeviceParticles& state, std::uint64_t value,
+                                 const VkSemaphoreSubmitInfo& signal) const;
+    [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(slots_.size()); }
+    [[nodiscard]] ParticleBuffers buffers(std::uint64_t value) const;
+    [[nodiscard]] const OutputSlot& slot(std::uint64_t value) const { return slots_[value % slots_.size()]; }
+
+  private:
+    const Device& device_;
+    std::uint32_t particles_ = 0;
+    float radius_ = 0.0F;
+    std::vector<OutputSlot> slots_;
+    Pipeline pipeline_;
+    VkDescriptorPool pool_ = VK_NULL_HANDLE;
+    VkDescriptorSet set_ = VK_NULL_HANDLE;
+};
+
+}  // namespace sluice::vk

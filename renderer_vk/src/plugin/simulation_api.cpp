@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// The part of the C ABI that is about a simulation, since ABI 1.1.
+#include "plugin/simulation_api.hpp"
+
+#include <fmt/format.h>
+
+#include "plugin/renderer.hpp"
+#include "plugin/simulation_arguments.hpp"
+#include "sluice/abi_boundary.hpp"
+#include "sluice/abi_sizes.hpp"
+
+namespace sluice::vk {
+namespace {
+
+Error isNull(const char* name) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, name, "it is NULL", ""};
+}
+
+}  // namespace
+
+SluiceResult setSimulation(SluiceRenderer* renderer, const SluiceSimulation* simulation, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (simulation == nullptr) {
+            return renderer->setSimulation(nullptr);
+        }
+        const Result<LiveSetup> setup = readSimulation(simulation);
+        return setup ? renderer->setSimulation(&setup.value()) : Status{setup.error()};
+    });
+}
+
+SluiceResult simulate(SluiceRenderer* renderer, std::uint64_t value, double seconds, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (!(seconds >= 0.0 && seconds <= 3600.0)) {
+            return Error{SLUICE_ERROR_INVALID_ARGUMENT, "seconds", fmt::format("{} is outside [0, 3600]", seconds), ""};
+        }
+        return renderer->simulate(value, seconds);
+    });
+}
+
+SluiceResult simulationWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns) {
+    SluiceResult answer = SLUICE_OK;
+    const SluiceResult failure = guarded(nullptr, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (renderer->simulation() == nullptr) {
+            return noSimulation("simulation");
+        }
+        answer = renderer->simulation()->wait(value, timeout_ns);
+        return {};
+    });
+    return failure != SLUICE_OK ? failure : answer;
+}
+
+SluiceResult simulationStats(SluiceRenderer* renderer, SluiceSimulationStats* stats) {
+    return guarded(nullptr, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (renderer->simulation() == nullptr) {
+            return noSimulation("simulation");
+        }
+        return writeAbiStruct(stats, renderer->simulation()->stats(), "stats");
+    });
+}
+
+}  // namespace sluice::vk

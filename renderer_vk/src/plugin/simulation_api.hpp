@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Entries of the table of functions; api.cpp has the others.
+#pragma once
+
+#include <cstdint>
+
+#include "sluice/plugin.h"
+
+namespace sluice::vk {
+
+[[nodiscard]] SluiceResult setSimulation(SluiceRenderer* renderer, const SluiceSimulation* simulation,
+                                         SluiceError* error);
+[[nodiscard]] SluiceResult simulate(SluiceRenderer* renderer, std::uint64_t value, double seconds, SluiceError* error);
+[[nodiscard]] SluiceResult simulationWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns);
+[[nodiscard]] SluiceResult simulationStats(SluiceRenderer* renderer, SluiceSimulationStats* stats);
+
+}  // namespace sluice::vk

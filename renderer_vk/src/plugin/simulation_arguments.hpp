@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// A SluiceSimulation as the solver's settings.
+#pragma once
+
+#include "live/live_simulation.hpp"
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+
+namespace sluice::vk {
+
+/// INVALID_ARGUMENT names what the solver's own checks would not see: pointers, kinds, counts. What the numbers may be
+/// is the solver's to say.
+[[nodiscard]] Result<LiveSetup> readSimulation(const SluiceSimulation* simulation);
+
+}  // namespace sluice::vk

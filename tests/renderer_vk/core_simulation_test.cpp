@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+// A fluid that flows inside the renderer: the same bits as the solver by itself, drawn where it lies, while frames run.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "core_fake_host.hpp"
+#include "simulation/solver.hpp"
+
+namespace sluice::vk::test {
+namespace {
+
+constexpr std::uint64_t kLong = 60'000'000'000;
+constexpr double kFrame = 1.0 / 60.0;
+
+/// A block of 6 x 8 x 6 particles that falls into its box, 2 m in front of the camera of frameOf.
+struct Block {
+    explicit Block(std::uint32_t frames_in_flight = 1) {
+        for (int i = 0; i < 6 * 8 * 6; ++i) {
+            position.push_back(-0.18F + 0.06F * static_cast<float>(i % 6));
+            position.push_back(-0.3F + 0.06F * static_cast<float>(i / 6 % 8));
+            position.push_back(-2.18F + 0.06F * static_cast<float>(i / 48));
+        }
+        simulation = sized<SluiceSimulation>();
+        simulation.frames_in_flight = frames_in_flight;
+        simulation.radius = settings.radius = 0.03F;
+        settings.low = {-0.5F, -0.5F, -2.5F};
+        settings.high = {0.5F, 1.0F, -1.5F};
+        settings.solids = {sphereSolid({0.0F, -0.45F, -2.0F}, 0.1F)};
+        std::copy(settings.low.begin(), settings.low.end(), &simulation.low[0]);
+        std::copy(settings.high.begin(), settings.high.end(), &simulation.high[0]);
+        std::copy(settings.gravity.begin(), settings.gravity.end(), &simulation.gravity[0]);
+        simulation.iterations = settings.iterations;
+        simulation.relaxation = settings.relaxation;
+        simulation.tensile = settings.tensile;
+        simulation.viscosity = settings.viscosity;
+        simulation.cfl = settings.cfl;
+        simulation.longest_step = 1.0 / 120.0;
+        solid.kind = SLUICE_SOLID_SPHERE;
+        solid.a[1] = -0.45F;
+        solid.a[2] = -2.0F;
+        solid.radius = 0.1F;
+        simulation.solids = &solid;
+        simulation.solid_count = 1;
+        simulation.particle_count = static_cast<std::uint32_t>(position.size() / 3);
+        simulation.position = position.data();
+    }
+    Block(const Block&) = delete;
+    Block& operator=(const Block&) = delete;
+
+    SimulationSettings settings;
+    SluiceSolid solid{};
+    std::vector<float> position;
+    SluiceSimulation simulation{};
+};
+
+class LiveFluid : public ::testing::Test {
+  protected:
+    void start(const Block& block, bool tracing = false) {
+        renderer.reset();
+        host = std::make_unique<FakeHost>(tracing);
+        host->keep_descriptors = true;
+        SluiceCreateInfo info = host->createInfo();
+        info.validation = 1;
+        renderer = std::make_unique<TestRenderer>(*host, info);
+        ASSERT_EQ(renderer->result(), SLUICE_OK) << renderer->error().message;
+        auto error = sized<SluiceError>();
+        ASSERT_EQ(api().set_simulation(renderer->get(), &block.simulation, &error), SLUICE_OK) << error.message;
+    }
+    SluiceResult simulate(std::uint64_t value, double seconds) {
+        said = sized<SluiceError>();
+        return api().simulate(renderer->get(), value, seconds, &said);
+    }
+    /// Frame k with the fluid of `value`, and its colours.
+    std::vector<std::byte> draw(std::uint64_t k, std::uint64_t value) {
+        SluiceFrame frame = frameOf(k, 2, SLUICE_VIEW_FLUID);
+        frame.simulation = value;
+        EXPECT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
+        EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value), SLUICE_OK);
+        EXPECT_EQ(api().timeline_wait(renderer->get(), k, kLong), SLUICE_OK);
+        EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value + 1), SLUICE_OK);
+        return host->texels(SLUICE_IMAGE_FLUID_COLOUR, frame.image_set);
+    }
+    SluiceSimulationStats stats() {
+        auto out = sized<SluiceSimulationStats>();
+        EXPECT_EQ(api().simulation_stats(renderer->get(), &out), SLUICE_OK);
+        return out;
+    }
+    SluiceFrameStats frameStats(std::uint64_t k) {
+        auto out = sized<SluiceFrameStats>();
+        EXPECT_EQ(api().poll(renderer->get(), k, &out), SLUICE_OK);
+        return out;
+    }
+    std::size_t logged(const std::string& text) const {
+        const auto lines = host->log();
+        return static_cast<std::size_t>(std::count_if(
+            lines.begin(), lines.end(), [&](const std::string& line) { return line.find(text) != std::string::npos; }));
+    }
+
+    std::unique_ptr<FakeHost> host;
+    std::unique_ptr<TestRenderer> renderer;
+    SluiceError said{};
+};
+
+/// The same block by the solver alone, value by value.
+std::vector<ParticleState> alone(const Block& block, std::uint64_t values) {
+    std::vector<ParticleState> states;
+    DeviceRequest request;
+    request.match_host = false;
+    auto device = Device::create(request);
+    auto solver = Solver::create(*device.value(), block.settings);
+    EXPECT_TRUE(solver.value()->setParticles(block.position, {}));
+    for (std::uint64_t value = 1; value <= values; ++value) {
+        if (value > 1) {
+            EXPECT_TRUE(solver.value()->advance(kFrame, block.simulation.longest_step));
+        }
+        states.push_back(solver.value()->read().value());
+    }
+    return states;
+}
+
+TEST_F(LiveFluid, IsTheSolversOwnToTheBitForEveryNumberOfFramesInFlight) {
+    constexpr std::uint64_t kValues = 6;
+    const Block still;
+    const std::vector<ParticleState> states = alone(still, kValues);
+    // What a host would upload of them, drawn.
+    ASSERT_NO_FATAL_FAILURE(start(still));
+    std::vector<std::vector<std::byte>> pictures;
+    for (std::uint64_t k = 1; k <= kValues; ++k) {
+        auto particles = sized<SluiceParticles>();
+        particles.count = still.simulation.particle_count;
+        particles.radius = still.simulation.radius;
+        particles.position = states[k - 1].position.data();
+        ASSERT_EQ(api().set_particles(renderer->get(), &particles, nullptr), SLUICE_OK);
+        pictures.push_back(draw(k, 0));
+    }
+    EXPECT_NE(pictures.front(), pictures.back()) << "it falls";
+    for (std::uint32_t in_flight = 1; in_flight <= SLUICE_MAX_FRAMES_IN_FLIGHT; ++in_flight) {
+        const Block block(in_flight);
+        ASSERT_NO_FATAL_FAILURE(start(block));
+        std::uint64_t asked = 0;
+        for (std::uint64_t k = 1; k <= kValues; ++k) {
+            for (; asked < std::min(kValues, k + in_flight - 1); ++asked) {
+                ASSERT_EQ(simulate(asked + 1, asked == 0 ? 0.0 : kFrame), SLUICE_OK) << said.message;
+            }
+            EXPECT_EQ(draw(k, k), pictures[k - 1]) << "value " << k << ", " << in_flight << " frames in flight";
+            EXPECT_EQ(frameStats(k).upload_bytes, 0U);
+        }
+        EXPECT_EQ(stats().reached, kValues);
+        EXPECT_EQ(stats().failed, 0U);
+        EXPECT_GE(stats().steps, 2 * (kValues - 1));
+        EXPECT_EQ(frameStats(kValues).validation_messages, 0U) << "synchronisation validation included";
+    }
+}
+
+TEST_F(LiveFluid, CallsOutOfOrderAreRefusedByName) {
+    const Block block;
+    ASSERT_NO_FATAL_FAILURE(start(block));
+    EXPECT_EQ(simulate(2, 0.0), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(said.message).find("1 was expected"), std::string::npos) << said.message;
+    EXPECT_EQ(simulate(1, -1.0), SLUICE_ERROR_INVALID_ARGUMENT);
+    SluiceFrame frame = frameOf(1, 2, SLUICE_VIEW_FLUID);
+    frame.simulation = 1;
+    EXPECT_EQ(renderer->submit(frame), SLUICE_ERROR_INVALID_ARGUMENT) << "nobody has asked for it";
+    for (std::uint64_t value = 1; value <= 3; ++value) {
+        ASSERT_EQ(simulate(value, 0.0), SLUICE_OK);
+    }
+    EXPECT_EQ(renderer->submit(frame), SLUICE_ERROR_INVALID_ARGUMENT) << "of two slots, its own is being overwritten";
+    EXPECT_NE(std::string(renderer->error().message).find("value 1 cannot be drawn"), std::string::npos);
+    draw(1, 2);
+
+    Block bad;
+    bad.solid.kind = 9;
+    EXPECT_EQ(api().set_simulation(renderer->get(), &bad.simulation, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    bad.solid.kind = SLUICE_SOLID_SPHERE;
+    bad.simulation.frames_in_flight = 4;
+    EXPECT_EQ(api().set_simulation(renderer->get(), &bad.simulation, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    bad.simulation.frames_in_flight = 1;
+    bad.position[1] = 7.0F;
+    EXPECT_EQ(api().set_simulation(renderer->get(), &bad.simulation, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    auto none = sized<SluiceSimulationStats>();
+    EXPECT_EQ(api().simulation_stats(renderer->get(), &none), SLUICE_ERROR_INVALID_ARGUMENT) << "it has ended";
+    EXPECT_EQ(api().simulation_wait(renderer->get(), 1, 0), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(simulate(1, 0.0), SLUICE_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(LiveFluid, AStepThatCannotBeTakenLeavesTheLastGoodStateInEveryFrameAfterIt) {
+    Block block;
+    std::vector<float> velocity(block.position.size(), 0.0F);
+    velocity[0] = 1e7F;
+    block.simulation.velocity = velocity.data();
+    ASSERT_NO_FATAL_FAILURE(start(block));
+    ASSERT_EQ(simulate(1, 0.0), SLUICE_OK);
+    const std::vector<std::byte> good = draw(1, 1);
+    for (std::uint64_t k = 2; k <= 3; ++k) {
+        ASSERT_EQ(simulate(k, kFrame), SLUICE_OK);
+        EXPECT_EQ(draw(k, k), good);
+    }
+    EXPECT_EQ(stats().failed, 2U);
+    EXPECT_EQ(stats().reached, 3U);
+    EXPECT_NE(std::string(stats().message).find("no step was stable"), std::string::npos) << stats().message;
+    EXPECT_EQ(logged("last good state"), 1U);
+    EXPECT_EQ(frameStats(3).validation_messages, 0U);
+}
+
+TEST_F(LiveFluid, EndsWhileItRunsAndWhileAFrameWaitsForAPromiseThatIsNeverKept) {
+    const Block block(3);
+    ASSERT_NO_FATAL_FAILURE(start(block));
+    ASSERT_EQ(simulate(1, 0.0), SLUICE_OK);
+    SluiceFrame frame = frameOf(1, 2, SLUICE_VIEW_FLUID);
+    frame.simulation = 1;
+    ASSERT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
+    for (std::uint64_t value = 2; value <= 40; ++value) {
+        ASSERT_EQ(simulate(value, kFrame), SLUICE_OK);
+    }
+    renderer->destroy();
+    EXPECT_EQ(logged("validation:"), 0U);
+}
+
+TEST_F(LiveFluid, TellsEachStepAndEachSideOfTheHandOver) {
+    const Block block;
+    ASSERT_NO_FATAL_FAILURE(start(block, true));
+    for (std::uint64_t k = 1; k <= 4; ++k) {
+        ASSERT_EQ(simulate(k, k == 1 ? 0.0 : kFrame), SLUICE_OK);
+        draw(k, k);
+        (void)frameStats(k);
+    }
+    renderer->destroy();
+    std::size_t steps = 0;
+    std::array<std::uint64_t, 2> told{};  // the last value signalled, and waited for
+    std::uint64_t slot_waits = 0;
+    for (const SeenEvent& seen : host->events()) {
+        steps += seen.event.track == SLUICE_TRACK_SIMULATION && seen.name == "step" ? 1U : 0U;
+        const bool simulation = seen.event.direction == SLUICE_SIMULATION_TO_RENDERER;
+        if (seen.event.kind == SLUICE_TRACE_SIGNAL && simulation) {
+            EXPECT_EQ(seen.event.track, static_cast<std::uint32_t>(SLUICE_TRACK_SIMULATION));
+            EXPECT_EQ(seen.event.value, ++told[0]);
+        }
+        if (seen.event.kind == SLUICE_TRACE_WAIT && simulation) {
+            EXPECT_EQ(seen.event.track, static_cast<std::uint32_t>(SLUICE_TRACK_RENDERER_QUEUE));
+            EXPECT_EQ(seen.event.value, ++told[1]);
+        }
+        slot_waits += seen.event.kind == SLUICE_TRACE_WAIT && seen.event.track == SLUICE_TRACK_SIMULATION ? 1U : 0U;
+    }
+    EXPECT_GE(steps, 6U) << "two steps a value at least";
+    EXPECT_EQ(told, (std::array<std::uint64_t, 2>{4, 4}));
+    EXPECT_EQ(slot_waits, 2U) << "values 3 and 4 wait for the frames of values 1 and 2";
+}
+
+}  // namespace
+}  // namespace sluice::vk::test
