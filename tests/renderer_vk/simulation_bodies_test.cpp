@@ -219,6 +219,13 @@ TEST(RigidBodies, KeepTheirSpinAndRestOnTheFloor) {
     EXPECT_LT(states[0].centre[1], 0.31);
 }
 
+TEST(RigidBodies, OnAPathAreAsFastAsTheyWillEverBe) {
+    std::vector<Body> bodies{body(SolidKind::Box, {}, {0.3F, 0.1F, 0.4F}, 1.0F)};
+    bodies[0].path = {{0, {0, 0, 0}, 0}, {1, {1, 0, 0}, 0}, {1.5F, {3, 0, 0}, 180.0F}};
+    const std::vector<BodyState> states{startOf(bodies[0])};
+    EXPECT_NEAR(fastestPoint(bodies, states), (2.0 + 3.14159265 * std::sqrt(0.26)) / 0.5, 1e-5);
+}
+
 TEST(RigidBodies, MeetEachOtherWithoutGainOfMomentum) {
     std::vector<Body> bodies{body(SolidKind::Sphere, {0, 0, 0}, {0.1F, 0.1F, 0.1F}, 1.0F),
                              body(SolidKind::Box, {0.5F, 0.02F, 0}, {0.1F, 0.1F, 0.1F}, 2.0F)};

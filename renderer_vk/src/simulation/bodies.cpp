@@ -177,6 +177,14 @@ double fastestPoint(std::span<const Body> bodies, std::span<const BodyState> sta
     double most = 0.0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         most = std::max(most, length(states[i].velocity) + length(states[i].spin) * bodyReach(bodies[i]));
+        for (std::size_t k = 1; k < bodies[i].path.size(); ++k) {
+            const PathPoint& from = bodies[i].path[k - 1];
+            const PathPoint& to = bodies[i].path[k];
+            const double turn =
+                std::abs(double{to.turn_degrees} - double{from.turn_degrees}) * std::numbers::pi / 180.0;
+            const double way = length(minus(wide(to.centre), wide(from.centre))) + turn * bodyReach(bodies[i]);
+            most = std::max(most, way / (double{to.time} - double{from.time}));
+        }
     }
     return most;
 }

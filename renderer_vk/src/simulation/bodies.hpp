@@ -51,7 +51,8 @@ struct BodyState {
 [[nodiscard]] BodyState startOf(const Body& body);
 /// The body as something that fluid stays out of.
 [[nodiscard]] Solid solidOf(const Body& body, const BodyState& state);
-/// Of the fastest point of any of them, m/s.
+/// Of the fastest point of any of them, m/s; of one with a path, the fastest that it will ever be: it may start at any
+/// time.
 [[nodiscard]] double fastestPoint(std::span<const Body> bodies, std::span<const BodyState> states);
 
 /// All of them `seconds` later without fluid: gravity, paths, and impacts on each other and on `walls`.

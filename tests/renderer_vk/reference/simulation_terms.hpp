@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: MIT
+// The terms that the reference step is made of: kernels, contacts, walls by quadrature, fields. No code is shared with
+// the solver.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "reference/simulation_reference.hpp"
+
+namespace sluice::vk::test::reference {
+
+inline constexpr double kPi = std::numbers::pi;
+
+inline Vec operator+(const Vec& a, const Vec& b) {
+    return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+inline Vec operator-(const Vec& a, const Vec& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+inline Vec operator*(double s, const Vec& v) {
+    return {s * v[0], s * v[1], s * v[2]};
+}
+inline double dot(const Vec& a, const Vec& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+inline double norm(const Vec& v) {
+    return std::sqrt(dot(v, v));
+}
+inline Vec cross(const Vec& a, const Vec& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+inline Vec wide(const Triple& v) {
+    return {double{v[0]}, double{v[1]}, double{v[2]}};
+}
+
+/// Simpson's rule over [from, h], which the polynomials below leave exact to round-off with this many parts.
+template <typename F>
+double integral(double from, double to, const F& f) {
+    constexpr int kParts = 400;
+    const double step = (to - from) / kParts;
+    double sum = f(from) + f(to);
+    for (int i = 1; i < kParts; ++i) {
+        sum += (i % 2 == 1 ? 4.0 : 2.0) * f(from + i * step);
+    }
+    return sum * step / 3.0;
+}
+
+struct Kernels {
+    double h, volume, wall;
+
+    explicit Kernels(double radius) : h(4.0 * radius), volume(1.0), wall(1.0) {
+        double sum = 0.0;
+        double behind = 0.0;
+        for (int i = 0; i < 125; ++i) {
+            const Vec at{2.0 * radius * (i % 5 - 2), 2.0 * radius * (i / 5 % 5 - 2), 2.0 * radius * (i / 25 - 2)};
+            sum += poly6(norm(at));
+            behind += at[0] < 0.0 ? poly6(norm(at)) : 0.0;
+        }
+        volume = 1.0 / sum;
+        wall = volume * behind / halfSpace(radius);
+    }
+    /// Over the plane at depth z poly6 integrates to pi/4 (h^2 - z^2)^4 times its factor.
+    [[nodiscard]] double halfSpace(double distance) const {
+        const double factor = 315.0 / (64.0 * kPi * std::pow(h, 9));
+        return factor * integral(distance, h, [this](double z) { return kPi / 4.0 * std::pow(h * h - z * z, 4); });
+    }
+    [[nodiscard]] double poly6(double r) const {
+        return r < h ? 315.0 / (64.0 * kPi * std::pow(h, 9)) * std::pow(h * h - r * r, 3) : 0.0;
+    }
+    /// Of spiky at `d`, with respect to d.
+    [[nodiscard]] Vec gradient(const Vec& d) const {
+        const double r = norm(d);
+        return r < h && r > 0.0 ? -45.0 / (kPi * std::pow(h, 6)) * std::pow(h - r, 2) / r * d : Vec{};
+    }
+};
+
+struct Contact {
+    Vec normal;
+    double distance;
+};
+
+inline Vec rotate(const std::array<float, 4>& q, const Vec& v, double sign) {
+    const Vec u{sign * double{q[0]}, sign * double{q[1]}, sign * double{q[2]}};
+    const double w = double{q[3]};
+    return 2.0 * dot(u, v) * u + (w * w - dot(u, u)) * v + 2.0 * w * cross(u, v);
+}
+
+inline Contact touching(const Solid& solid, const Vec& x) {
+    const Vec a = wide(solid.a);
+    const Vec b = wide(solid.b);
+    if (solid.kind == SolidKind::Plane) {
+        return {a, dot(a, x) - double{solid.radius}};
+    }
+    if (solid.kind == SolidKind::Box) {
+        const Vec local = rotate(solid.turn, x - a, -1.0);
+        const Vec nearest{std::clamp(local[0], -b[0], b[0]), std::clamp(local[1], -b[1], b[1]),
+                          std::clamp(local[2], -b[2], b[2])};
+        const Vec away = local - nearest;
+        if (norm(away) > 0.0) {
+            return {rotate(solid.turn, 1.0 / norm(away) * away, 1.0), norm(away)};
+        }
+        std::size_t face = 0;
+        for (std::size_t i = 1; i < 3; ++i) {
+            face = std::abs(local[i]) - b[i] > std::abs(local[face]) - b[face] ? i : face;
+        }
+        Vec normal{};
+        normal[face] = local[face] < 0.0 ? -1.0 : 1.0;
+        return {rotate(solid.turn, normal, 1.0), std::abs(local[face]) - b[face]};
+    }
+    Vec centre = a;
+    if (solid.kind == SolidKind::Capsule) {
+        centre = a + std::clamp(dot(x - a, b - a) / dot(b - a, b - a), 0.0, 1.0) * (b - a);
+    }
+    return {1.0 / norm(x - centre) * (x - centre), norm(x - centre) - double{solid.radius}};
+}
+
+using Bodies = std::vector<ReferenceBody>;
+
+inline void push(ReferenceBody& body, const Vec& x, const Vec& by) {
+    body.shift = body.shift + by;
+    body.moment = body.moment + cross(x - body.centre, by);
+}
+
+/// The six faces of the domain, then the solids, then the bodies.
+inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& bodies, const Vec& x) {
+    std::vector<Contact> all;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Vec normal{};
+        normal[axis] = 1.0;
+        all.push_back({normal, x[axis] - double{s.low[axis]}});
+        all.push_back({-1.0 * normal, double{s.high[axis]} - x[axis]});
+    }
+    for (const Solid& solid : s.solids) {
+        all.push_back(touching(solid, x));
+    }
+    for (const ReferenceBody& body : bodies) {
+        all.push_back(touching(body.solid, x));
+    }
+    return all;
+}
+
+inline Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x) {
+    const double r = double{s.radius};
+    for (const Solid& solid : s.solids) {
+        const Contact contact = touching(solid, x);
+        x = x + std::max(r - contact.distance, 0.0) * contact.normal;
+    }
+    for (ReferenceBody& body : bodies) {
+        const Contact contact = touching(body.solid, x);
+        const Vec by = std::max(r - contact.distance, 0.0) * contact.normal;
+        push(body, x, by);
+        x = x + by;
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        x[axis] = std::clamp(x[axis], double{s.low[axis]} + r, double{s.high[axis]} - r);
+    }
+    return x;
+}
+
+/// Of all force fields, m/s^2.
+inline Vec fieldsAt(const SimulationSettings& s, const Vec& x) {
+    Vec sum{};
+    for (const ForceField& field : s.sources.fields) {
+        const Vec axis = 1.0 / norm(wide(field.axis)) * wide(field.axis);
+        Vec away = x - wide(field.centre);
+        if (field.kind == ForceKind::Vortex) {
+            away = cross(cross(axis, away), axis);
+        }
+        const double q = field.radius > 0.0F ? norm(away) / double{field.radius} : 0.0;
+        const double strength = q < 1.0 ? double{field.strength} * std::pow(1.0 - q * q, 2) : 0.0;
+        const Vec along = field.kind == ForceKind::Wind    ? axis
+                          : field.kind == ForceKind::Point ? -1.0 / norm(away) * away
+                                                           : 1.0 / norm(away) * cross(axis, away);
+        sum = sum + strength * along;
+    }
+    return sum;
+}
+
+struct Walls {
+    Vec gradient{};
+    double density = 0.0;
+    std::vector<Vec> parts;  ///< of the gradient, of each wall
+};
+
+/// Integrals of the kernels over what lies behind each wall, by quadrature.
+inline Walls wallsAt(const SimulationSettings& s, const Bodies& bodies, const Kernels& kernels, const Vec& x) {
+    const double h = kernels.h;
+    Walls walls;
+    for (const Contact& contact : contacts(s, bodies, x)) {
+        const double d = std::clamp(contact.distance, 0.0, h);
+        const double share = kernels.wall * kernels.halfSpace(d);
+        // The gradient of a half-space is spiky, 15 / (pi h^6) (h - r)^3, over the plane that bounds it.
+        const double slope = 15.0 / (kPi * std::pow(h, 6)) *
+                             integral(d, h, [h](double r) { return 2.0 * kPi * r * std::pow(h - r, 3); });
+        walls.gradient = (1.0 - share) * walls.gradient - slope * (1.0 - walls.density) * contact.normal;
+        for (Vec& part : walls.parts) {
+            part = (1.0 - share) * part;
+        }
+        walls.parts.push_back(-slope * (1.0 - walls.density) * contact.normal);
+        walls.density += share * (1.0 - walls.density);
+    }
+    return walls;
+}
+
+}  // namespace sluice::vk::test::reference
