@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // How much of a simulation hides behind the host's own work: the same frames one thing after the other, and with 1 to 3
 // frames in flight, in turns, in one process. Prints a table in Markdown; scripts/overlap runs it and says where.
-//   overlap [SCENE [FRAMES [ROUNDS [LOAD]]]]   LOAD: the host's work as a multiple of the simulation's
+//   overlap [SCENE [FRAMES [ROUNDS [LOAD [RADIUS]]]]]   LOAD: the host's work as a multiple of the simulation's;
+//   RADIUS: of the particles, metres; 0: the scene's
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
@@ -11,9 +12,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/live_run.hpp"
+#include "app/log.hpp"
 #include "app/render_inputs.hpp"
 #include "app/render_session.hpp"
 #include "report/statistics.hpp"
@@ -183,11 +186,13 @@ void print(const Rig& rig, const std::array<std::vector<Run>, 4>& runs) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    cli::startLog(0, true);
     cli::RenderOptions options;
     options.scene = argc > 1 ? argv[1] : "samples/dam_break.json";
     const std::int64_t frames = argc > 2 ? std::atoll(argv[2]) : 16;
     const int rounds = argc > 3 ? std::atoi(argv[3]) : 3;
     const double load = argc > 4 ? std::atof(argv[4]) : 1.0;
+    const float radius = argc > 5 ? static_cast<float>(std::atof(argv[5])) : 0.02F;
     options.frames = scene::FrameRange{1, std::max<std::int64_t>(frames, 2)};
     options.size = scene::Size{320, 180};
     Result<cli::RenderInputs> inputs = cli::readScene(options);
@@ -196,6 +201,14 @@ int main(int argc, char** argv) {
     }
     if (!inputs.value().live) {
         stop({SLUICE_ERROR_INVALID_ARGUMENT, options.scene, "names particles: nothing is simulated", ""});
+    }
+    if (radius > 0.0F) {
+        inputs.value().scene.simulation.radius = radius;
+        Result<cli::LiveFluid> coarser = cli::liveFluid(inputs.value().scene, 1, 1);
+        if (!coarser) {
+            stop(coarser.error());
+        }
+        inputs.value().live.emplace(std::move(coarser).value());
     }
     Result<cli::RenderSession> session = cli::createSession(inputs.value());
     if (!session) {
