@@ -51,13 +51,15 @@ double integral(double from, double to, const F& f) {
 }
 
 struct Kernels {
-    double h, volume, wall;
+    double h;
+    double volume = 1.0, wall = 1.0;
 
-    explicit Kernels(double radius) : h(4.0 * radius), volume(1.0), wall(1.0) {
+    explicit Kernels(double radius) : h(4.0 * radius) {
         double sum = 0.0;
         double behind = 0.0;
         for (int i = 0; i < 125; ++i) {
-            const Vec at{2.0 * radius * (i % 5 - 2), 2.0 * radius * (i / 5 % 5 - 2), 2.0 * radius * (i / 25 - 2)};
+            const int cell[3] = {i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2};
+            const Vec at{2.0 * radius * cell[0], 2.0 * radius * cell[1], 2.0 * radius * cell[2]};
             sum += poly6(norm(at));
             behind += at[0] < 0.0 ? poly6(norm(at)) : 0.0;
         }
@@ -86,7 +88,7 @@ struct Contact {
 
 inline Vec rotate(const std::array<float, 4>& q, const Vec& v, double sign) {
     const Vec u{sign * double{q[0]}, sign * double{q[1]}, sign * double{q[2]}};
-    const double w = double{q[3]};
+    const auto w = double{q[3]};
     return 2.0 * dot(u, v) * u + (w * w - dot(u, u)) * v + 2.0 * w * cross(u, v);
 }
 
@@ -145,7 +147,7 @@ inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& 
 }
 
 inline Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x) {
-    const double r = double{s.radius};
+    const auto r = double{s.radius};
     for (const Solid& solid : s.solids) {
         const Contact contact = touching(solid, x);
         x = x + std::max(r - contact.distance, 0.0) * contact.normal;
