@@ -21,7 +21,8 @@ struct Block {
         for (int i = 0; i < 6 * 8 * 6; ++i) {
             position.push_back(-0.18F + 0.06F * static_cast<float>(i % 6));
             position.push_back(-0.3F + 0.06F * static_cast<float>(i / 6 % 8));
-            position.push_back(-2.18F + 0.06F * static_cast<float>(i / 48));
+            const int layer = i / 48;
+            position.push_back(-2.18F + 0.06F * static_cast<float>(layer));
         }
         simulation = sized<SluiceSimulation>();
         simulation.frames_in_flight = frames_in_flight;
