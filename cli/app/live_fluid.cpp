@@ -43,16 +43,18 @@ std::vector<SluiceSolid> solidsOf(const simulator::Setup& setup) {
 
 /// What `sluice simulate` knows and the C ABI does not.
 Status checkCrosses(const simulator::Setup& setup) {
-    const std::array<std::pair<const char*, std::size_t>, 6> all{{{"emitters", setup.emitters.size()},
-                                                                  {"drains", setup.drains.size()},
-                                                                  {"fields", setup.fields.size()},
-                                                                  {"bodies", setup.bodies.size()},
-                                                                  {"tension", setup.tension != 0.0F ? 1U : 0U},
-                                                                  {"adhesion", setup.adhesion != 0.0F ? 1U : 0U}}};
+    const std::array<std::pair<const char*, std::size_t>, 7> all{
+        {{"emitters", setup.emitters.size()},
+         {"drains", setup.drains.size()},
+         {"fields", setup.fields.size()},
+         {"bodies", setup.bodies.size()},
+         {"tension", setup.tension != 0.0F ? 1U : 0U},
+         {"adhesion", setup.adhesion != 0.0F ? 1U : 0U},
+         {"overshoot", setup.overshoot != scene::Simulation{}.overshoot ? 1U : 0U}}};
     for (const auto& [name, count] : all) {
         if (count > 0) {
             return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("/simulation/{}", name),
-                         fmt::format("expected none while frames are drawn, found {}", count),
+                         fmt::format("expected none, or its default, while frames are drawn, found {}", count),
                          "simulate into files first (sluice simulate SCENE -o FILE) and give them with --particles"};
         }
     }
