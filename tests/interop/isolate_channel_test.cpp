@@ -59,6 +59,17 @@ class IsolateChannel : public ::testing::Test {
     Channel here_, there_;
 };
 
+TEST_F(IsolateChannel, AMessageWithoutAByteIsNoMessageAndNoEnd) {
+    sendRaw("", 0, {});
+    ASSERT_TRUE(there_.send(Info{}, 3, {}, kLongNs));
+    EXPECT_EQ(here_.receive(kLongNs).error().code, SLUICE_ERROR_INVALID_ARGUMENT);
+    const Result<Received> next = here_.receive(kLongNs);
+    ASSERT_TRUE(next) << next.error().message();
+    EXPECT_EQ(next.value().call, 3U);
+    there_ = Channel();
+    EXPECT_EQ(here_.receive(kLongNs).error().code, SLUICE_ERROR_DEVICE_LOST);
+}
+
 TEST_F(IsolateChannel, ADescriptorArrivesOnceAndTheSendersStaysItsOwn) {
     std::array<int, 2> ends{};
     ASSERT_EQ(::pipe2(ends.data(), O_CLOEXEC), 0);

@@ -111,13 +111,13 @@ Status Connection::open(const PluginLibrary& library) {
     return {};
 }
 
-void Connection::close(bool gl_finished) {
+void Connection::close(bool drained) {
     // The bridge may still owe values that the renderer's queue waits for, so it drains before the renderer goes.
     timeline.reset();
     renderer = Renderer{};
     services.tellFeed(nullptr);
-    if (feed && gl_finished) {
-        feed->imagesDestroyed(true);  // the renderer waits for its device before it goes
+    if (feed && drained) {
+        feed->imagesDestroyed(true);
     }
     feed.reset();
     if (shares) {

@@ -29,8 +29,9 @@ struct Connection {
     [[nodiscard]] Status open(const PluginLibrary& library);
     /// Replaces every shared image. GL must have finished with them. On failure there are none until a resize succeeds.
     [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height);
-    /// `gl_finished`: GL is through with the images.
-    void close(bool gl_finished = true);
+    /// `drained`: GL is through with the images, and the renderer waits for its device before it goes. Of images whose
+    /// use may not have ended the ledger is not told the end.
+    void close(bool drained = true);
 
     FluidHostConfig config;
     std::optional<ledger::ShareFeed> shares;  ///< empty without a ledger, as `feed`

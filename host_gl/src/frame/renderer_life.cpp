@@ -23,7 +23,8 @@ RendererLife::~RendererLife() {
         // GL has finished; what could not be kept of the last frame is its times.
     }
     const auto scope = watch_.during("destroy", 0);
-    link_.close(glMayFinish());
+    // A lost device, a stuck renderer and a process that was killed wait for nothing.
+    link_.close(glMayFinish() && !lost_ && !fault_);
 }
 
 Status RendererLife::start(const PluginLibrary& library) {

@@ -18,6 +18,7 @@
 #include <exception>
 #include <thread>
 
+#include "sluice/isolate/above_streams.hpp"
 #include "sluice/isolate/server.hpp"
 #include "sluice/trace.hpp"
 
@@ -26,9 +27,17 @@ namespace sluice::host {
 namespace {
 
 /// Reaps it whenever the kernel lets go of it. Nothing of this process is touched, so nobody waits for that thread.
-void leaveToReaper(pid_t pid) {
+void leaveToReaper(pid_t pid, UniqueFd pidfd) {
     try {
-        std::thread([pid] {
+        std::thread([pid, pidfd = std::move(pidfd)] {
+            siginfo_t ended{};
+            int failed = EINTR;
+            while (pidfd.valid() && failed == EINTR) {
+                failed = ::waitid(P_PIDFD, static_cast<id_t>(pidfd.get()), &ended, WEXITED) == 0 ? 0 : errno;
+            }
+            if (pidfd.valid() && failed != EINVAL) {  // that is a kernel before 5.4
+                return;
+            }
             int status = 0;
             while (::waitpid(pid, &status, 0) < 0 && errno == EINTR) {
             }
@@ -67,7 +76,16 @@ bool ChildEnd::clean() const {
     return kind == Kind::Reaped && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
+bool ChildEnd::late() const {
+    return late_s > 0.0 &&
+           (kind == Kind::Stuck || (kind == Kind::Reaped && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
+}
+
 std::string ChildEnd::text() const {
+    if (late()) {
+        const std::string killed = fmt::format("did not end within {:g} s and was killed", late_s);
+        return kind == Kind::Stuck ? killed + ", but " + ChildEnd{kind, status, after_kill_ns, 0.0}.text() : killed;
+    }
     switch (kind) {
         case Kind::Unknown:
             return "has ended, how is not known";
@@ -121,14 +139,24 @@ Status Child::start(const std::filesystem::path& program, const std::string& arg
     }
     running_ = true;
     // Kernels before 5.3 have none, and sandboxes may forbid it; the end of the channel then has to do.
-    pidfd_.reset(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0)));
+    pidfd_ = isolate::aboveStreams(UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0))));
     return {};
 }
 
 void Child::kill() {
     const std::lock_guard lock(mutex_);
     if (running_) {
-        ::kill(pid_, SIGKILL);
+        sendKill();
+    }
+}
+
+void Child::sendKill() const {
+    // By number only where there is nothing better: somebody else of this process may have reaped it, and the number
+    // is another's then.
+    if (!pidfd_.valid() || ::syscall(SYS_pidfd_send_signal, pidfd_.get(), SIGKILL, nullptr, 0) != 0) {
+        if (!pidfd_.valid() || errno == ENOSYS || errno == EPERM) {
+            ::kill(pid_, SIGKILL);
+        }
     }
 }
 
@@ -157,10 +185,11 @@ ChildEnd Child::reap(std::uint64_t grace_ns) {
             const std::uint64_t now = monotonicNanoseconds();
             if (now - begin >= grace_ns) {
                 killed = killed == 0 ? now : killed;
-                ::kill(pid_, SIGKILL);
+                end.late_s = static_cast<double>(grace_ns) * 1e-9;
+                sendKill();
                 if (now - killed >= watch_.after_kill_ns) {
                     running_ = false;
-                    leaveToReaper(pid_);
+                    leaveToReaper(pid_, pidfd_.duplicate());
                     end.kind = ChildEnd::Kind::Stuck;
                     end.after_kill_ns = watch_.after_kill_ns;
                     return end;

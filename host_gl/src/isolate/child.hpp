@@ -17,10 +17,15 @@
 
 namespace sluice::host {
 
-/// How a Child learns that its process has ended. For tests: nobody can make a process that SIGKILL does not end.
+/// How a Child learns that its process has ended, and how long it waits for what. For tests: nobody can make a process
+/// that SIGKILL does not end.
 struct ChildWatch {
     std::function<pid_t(pid_t, int*)> wait;          ///< as waitpid with WNOHANG; empty: that itself
     std::uint64_t after_kill_ns = 5'000'000'000ULL;  ///< what SIGKILL gets to be obeyed
+    /// What one that has closed its channel gets for its exit handlers.
+    std::uint64_t grace_ns = 10'000'000'000ULL;
+    /// What calls give the log to be told of an end before them. It may be waiting for the very thread that calls.
+    std::uint64_t telling_ns = 5'000'000'000ULL;
 };
 
 /// How a process ended, if it did.
@@ -33,9 +38,12 @@ struct ChildEnd {
     Kind kind = Kind::Unknown;
     int status = 0;                   ///< of waitpid, when Reaped
     std::uint64_t after_kill_ns = 0;  ///< that were waited for it in vain, when Stuck
+    double late_s = 0.0;              ///< the grace that it let pass, after which reap() has killed it; or 0
 
     /// It ended with exit code 0.
     [[nodiscard]] bool clean() const;
+    /// Killed by reap() itself, for its grace was over.
+    [[nodiscard]] bool late() const;
     /// "was killed by signal 9 (SIGKILL)".
     [[nodiscard]] std::string text() const;
 };
@@ -57,6 +65,7 @@ class Child {
     [[nodiscard]] pid_t pid() const { return pid_; }
     /// Readable once the process has ended; -1 where the kernel has no such thing.
     [[nodiscard]] int endFd() const { return pidfd_.get(); }
+    [[nodiscard]] const ChildWatch& watch() const { return watch_; }
     /// Any thread.
     void kill();
     /// Gives it `grace_ns` to end by itself, then kills it, and says how it ended. Takes no longer than that and
@@ -65,6 +74,8 @@ class Child {
 
   private:
     [[nodiscard]] bool waited(ChildEnd& end);
+    /// With mutex_ held.
+    void sendKill() const;
 
     ChildWatch watch_;
     pid_t pid_ = -1;

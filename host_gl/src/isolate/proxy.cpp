@@ -206,6 +206,7 @@ SluiceResult timelineWait(SluiceRenderer* renderer, std::uint64_t value, std::ui
                 process.condemn("moved its counter back, or far ahead, and was killed");
                 [[fallthrough]];
             case isolate::WaitEnd::PeerDead:
+                static_cast<void>(process.gone());  // the log is to say why before anybody acts on it
                 answer = SLUICE_ERROR_DEVICE_LOST;
                 break;
         }
@@ -260,7 +261,9 @@ SluiceResult timelineExport(SluiceRenderer* renderer, std::uint32_t direction, s
 void destroy(SluiceRenderer* renderer) {
     static_cast<void>(quietly([&]() -> Status {
         const std::unique_ptr<Proxy> self(of(renderer));
-        if (self && !self->process->timeline().peerDead()) {
+        if (self && self->process->timeline().peerDead()) {
+            static_cast<void>(self->process->gone());  // it was not asked to end, and the log is to say so
+        } else if (self) {
             tellFaultThatNeverCame(*self);
             static_cast<void>(
                 simply(*self->process, isolate::Destroy{}, "destroy", {&self->services, nullptr, nullptr}));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <array>
 #include <exception>
 #include <filesystem>
@@ -15,13 +16,6 @@
 #include "sluice/abi_sizes.hpp"
 
 namespace sluice::host {
-
-namespace {
-
-/// For a process that has closed its channel, or was asked to end: to run its exit handlers.
-constexpr std::uint64_t kGraceNs = 10'000'000'000;
-
-}  // namespace
 
 void RendererProcess::live(const isolate::Channel& there) {
     Status started;
@@ -116,7 +110,7 @@ void RendererProcess::hear(isolate::Received received) {
     const std::string_view name = isolate::nameOf(received.message);
     {
         const std::lock_guard lock(mutex_);
-        if (line ? lines_ < kMostLines : mail_.size() == lines_) {
+        if (line ? lines_ < kMostLines : waiting_ && mail_.size() == lines_) {
             lines_ += line ? 1U : 0U;
             mail_.push_back(std::move(received));
             changed_.notify_all();
@@ -128,53 +122,68 @@ void RendererProcess::hear(isolate::Received received) {
 }
 
 void RendererProcess::noteEnd(const char* misfortune) {
-    bool condemned = misfortune != nullptr;
-    if (condemned) {
+    if (misfortune != nullptr) {
         child_.kill();
-        channel_.shutdown();
     }
+    // It may live on with nothing but its sending end closed: it shall not be asked, nor waited for, any more.
+    channel_.shutdown();
+    timeline_->peerDied();
+    std::uint64_t grace = child_.watch().grace_ns;
     {
         const std::lock_guard lock(mutex_);
-        condemned = condemned || !blame_.empty();
-    }
-    const ChildEnd ended = child_.reap(condemned ? 0 : kGraceNs);
-    try {
-        if (misfortune != nullptr) {
-            const std::lock_guard lock(mutex_);
-            blame_ = blame_.empty() ? misfortune : blame_;
+        closed_ = true;
+        if (misfortune != nullptr || !blame_.empty()) {
+            grace = 0;
+        } else if (!ending_) {
+            grace = std::min(grace, config_.call_timeout_ns);  // a call may be waiting for this
         }
-        tellEnd(ended);
+    }
+    const ChildEnd ended = child_.reap(grace);
+    std::int32_t level = SLUICE_LOG_ERROR;
+    std::string line;
+    try {
+        Error end = endOf(ended, misfortune, level, line);
+        const std::lock_guard lock(mutex_);
+        telling_ = !line.empty();
+        end_ = std::move(end);
     } catch (...) {
         const std::lock_guard lock(mutex_);
         end_.emplace(std::move(last_words_));
     }
-    timeline_->peerDied();
+    changed_.notify_all();  // whatever the log does now, nobody hangs here for it
+    bool told = false;
+    try {
+        // Not left to whoever calls next: many calls can say no more than a code.
+        told = !line.empty() && log(level, line);
+    } catch (...) {  // then the next call does say it
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        told_ = told;
+        telling_ = false;
+    }
     changed_.notify_all();
 }
 
-void RendererProcess::tellEnd(const ChildEnd& ended) {
+Error RendererProcess::endOf(const ChildEnd& ended, const char* misfortune, std::int32_t& level, std::string& line) {
     const std::string how = ended.text();
     Error end{SLUICE_ERROR_DEVICE_LOST, fmt::format("renderer process {}", child_.pid()), {}, {}};
-    bool asked = false;
-    {
-        const std::lock_guard lock(mutex_);
-        asked = ending_;
-        if (blame_.empty()) {
-            end.detail =
-                fmt::format("{} {} {}", how, doing_.starts_with("after") ? "between calls," : "during", doing_);
-        } else {
-            end.detail = ended.kind == ChildEnd::Kind::Stuck ? blame_ + ", but " + how : blame_;
-        }
+    const std::lock_guard lock(mutex_);
+    blame_ = blame_.empty() && misfortune != nullptr ? misfortune : blame_;
+    if (!blame_.empty()) {
+        end.detail = ended.kind == ChildEnd::Kind::Stuck ? blame_ + ", but " + how : blame_;
+    } else {
+        end.detail = fmt::format("{}{} {} {}", ended.late() ? "closed its channel, " : "", how,
+                                 doing_.starts_with("after") ? "between calls," : "during", doing_);
     }
-    if (!asked) {
-        // Not left to whoever calls next: many calls can say no more than a code. What follows is the reader's to say.
-        told_ = log(SLUICE_LOG_ERROR, end.message());
+    if (!ending_) {
+        line = end.message();  // what follows is the reader's to say
     } else if (!ended.clean()) {
-        static_cast<void>(log(SLUICE_LOG_WARNING, fmt::format("{} {} when it was to end", end.thing, how)));
+        level = SLUICE_LOG_WARNING;
+        line = fmt::format("{} {} when it was to end", end.thing, how);
     }
     end.remedy = kRecreate;
-    const std::lock_guard lock(mutex_);
-    end_ = std::move(end);
+    return end;
 }
 
 bool RendererProcess::log(std::int32_t level, const std::string& text) {

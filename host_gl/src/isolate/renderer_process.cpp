@@ -21,6 +21,8 @@ constexpr std::uint64_t kShortestCallNs = 1'000'000;
 constexpr std::uint64_t kLongestCallNs = 86'400'000'000'000;
 /// A process that ends closes its channel's two directions one right after the other.
 constexpr std::uint64_t kClosingNs = 1'000'000'000;
+/// Longer than a process can take to end or be left behind. Past it, the thread that listens is held up in a callback.
+constexpr std::chrono::seconds kEndWait{30};
 
 double seconds(std::uint64_t nanoseconds) {
     return static_cast<double>(nanoseconds) * 1e-9;
@@ -62,6 +64,9 @@ Result<std::unique_ptr<RendererProcess>> RendererProcess::start(const IsolationC
     const std::uint64_t deadline = monotonicNanoseconds() + timeout;
     const int page = process->timeline_->fd();
     Status sent = process->channel_.send(hello, 0, std::span(&page, 1), timeout);
+    if (!sent && sent.error().code != SLUICE_ERROR_DEVICE_LOST) {
+        return sent.error();  // nobody will answer what was never sent
+    }
     // A process that ended before it listened tells more by its end than by the failed send.
     Result<isolate::Received> answer = process->nextMessage(deadline);
     if (!answer) {
@@ -99,6 +104,11 @@ RendererProcess::~RendererProcess() {
     }
 }
 
+void RendererProcess::limitCalls(std::uint64_t call_timeout_ns) {
+    const std::scoped_lock lock(call_mutex_, mutex_);
+    config_.call_timeout_ns = std::clamp(call_timeout_ns, kShortestCallNs, kLongestCallNs);
+}
+
 bool RendererProcess::alive() {
     {
         const std::lock_guard lock(mutex_);
@@ -128,8 +138,14 @@ void RendererProcess::condemn(std::string blame) {
 
 Error RendererProcess::gone() {
     std::unique_lock lock(mutex_);
-    // Whoever condemned it waits here until it is so; the listener always gets there.
-    changed_.wait(lock, [this] { return end_.has_value(); });
+    // Whoever condemned it waits here until it is so.
+    if (!changed_.wait_for(lock, kEndWait, [this] { return end_.has_value(); })) {
+        return {SLUICE_ERROR_DEVICE_LOST, fmt::format("renderer process {}", child_.pid()),
+                (blame_.empty() ? "has closed its channel" : blame_) +
+                    "; its end is not known, for the host's log or trace callback has not returned",
+                kRecreate};
+    }
+    changed_.wait_for(lock, std::chrono::nanoseconds(child_.watch().telling_ns), [this] { return !telling_; });
     Error error = *end_;
     if (told_) {
         error.detail = "is gone; the log says how";
@@ -142,6 +158,10 @@ Result<isolate::Received> RendererProcess::nextMessage(std::uint64_t deadline_ns
     std::unique_lock lock(mutex_);
     const bool came = changed_.wait_for(lock, std::chrono::nanoseconds(until(deadline_ns)),
                                         [this] { return !mail_.empty() || end_.has_value(); });
+    if (!came && closed_) {
+        lock.unlock();
+        return gone();
+    }
     if (!came) {
         const std::string doing = doing_;
         lock.unlock();
@@ -156,6 +176,8 @@ Result<isolate::Received> RendererProcess::nextMessage(std::uint64_t deadline_ns
     isolate::Received received = std::move(mail_.front());
     mail_.pop_front();
     lines_ -= std::holds_alternative<isolate::Line>(received.message) ? 1U : 0U;
+    waiting_ = waiting_ && !std::holds_alternative<isolate::Returned>(received.message) &&
+               !std::holds_alternative<isolate::Welcome>(received.message);
     return received;
 }
 
@@ -183,6 +205,7 @@ Result<Reply> RendererProcess::call(const isolate::Message& message, std::span<c
         if (!end_) {
             doing_ = doing;
         }
+        waiting_ = true;
     }
     const std::uint64_t number = ++calls_;
     std::uint64_t deadline = monotonicNanoseconds() + config_.call_timeout_ns;

@@ -2,7 +2,6 @@
 // A renderer's process as the host knows it: calls go in, answers or its end come out.
 #pragma once
 
-#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -70,8 +69,11 @@ class RendererProcess {
                                      const CallBacks& back);
     /// The counters are broken, or the renderer's side has failed: nothing it says is of use any more.
     void condemn(std::string blame);
-    /// That the process is gone; and how, if the log has not been told.
+    /// That the process is gone; and how, if the log has not been told. Waits for its end, and a little for a log that
+    /// is slow, but not for ever.
     [[nodiscard]] Error gone();
+    /// The deadline of calls from now on; not during a call. For tests.
+    void limitCalls(std::uint64_t call_timeout_ns);
 
   private:
     RendererProcess(IsolationConfig config, const isolate::Hello& hello, ChildWatch watch)
@@ -82,7 +84,8 @@ class RendererProcess {
     void listen();
     void hear(isolate::Received received);
     void noteEnd(const char* misfortune);
-    void tellEnd(const ChildEnd& ended);
+    /// And the line that the log gets of it, if any.
+    [[nodiscard]] Error endOf(const ChildEnd& ended, const char* misfortune, std::int32_t& level, std::string& line);
     /// False: nobody listens.
     [[nodiscard]] bool log(std::int32_t level, const std::string& text);
 
@@ -101,7 +104,6 @@ class RendererProcess {
     isolate::Welcome welcome_;
     std::mutex call_mutex_;  ///< a call from its message to its answer
     std::uint64_t calls_ = 0;
-    std::atomic<bool> told_{false};
 
     std::mutex services_mutex_;
     std::optional<SluiceHostServices> services_;
@@ -111,11 +113,15 @@ class RendererProcess {
     std::optional<Status> spawned_;
     std::deque<isolate::Received> mail_;
     std::uint32_t lines_ = 0;  ///< in mail_; of all else one at most
+    bool waiting_ = true;      ///< something was sent that is not answered yet
     std::string doing_ = "its start";
     std::string blame_;         ///< why this process has ended it
     std::optional<Error> end_;  ///< it is gone
     Error last_words_;          ///< for end_ when there is no memory for others
     bool ending_ = false;       ///< it was asked to end
+    bool closed_ = false;       ///< it is heard no more
+    bool telling_ = false;      ///< the log is being told of the end
+    bool told_ = false;         ///< and was
     std::thread listener_;
 };
 

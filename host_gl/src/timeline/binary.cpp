@@ -57,12 +57,14 @@ class BinaryTimeline final : public HostTimeline {
     }
 
     /// Imports the semaphores of the first frame and lets go of them: whether the two drivers understand each other.
-    [[nodiscard]] Status trial() const {
+    /// The ledger hears of these, and of no frame's.
+    [[nodiscard]] Status trial() {
         for (const SluiceDirection direction : {SLUICE_HOST_TO_RENDERER, SLUICE_RENDERER_TO_HOST}) {
             if (Result<GlSemaphore> semaphore = GlSemaphore::import(deps_, direction, 1, nullptr); !semaphore) {
                 return semaphore.error();
             }
         }
+        deps_.shares = nullptr;
         return {};
     }
 

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <string>
 
+#include "sluice/isolate/above_streams.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::isolate {
@@ -58,6 +59,12 @@ Result<bool> ready(int fd, short events, std::uint64_t deadline_ns) {
     }
 }
 
+/// Whether the other end sends no more; a message without a byte looks the same to recvmsg.
+bool hungUp(int fd) {
+    pollfd entry{fd, POLLRDHUP, 0};
+    return ::poll(&entry, 1, 0) != 0;
+}
+
 std::uint64_t deadlineAfter(std::uint64_t timeout_ns) {
     const std::uint64_t now = monotonicNanoseconds();
     return timeout_ns > kForever - now ? kForever : now + timeout_ns;
@@ -92,7 +99,14 @@ Result<std::pair<Channel, Channel>> Channel::pair() {
     if (::socketpair(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0, ends.data()) != 0) {
         return systemError("socketpair");
     }
-    return std::pair(Channel(UniqueFd(ends[0])), Channel(UniqueFd(ends[1])));
+    UniqueFd here(ends[0]);
+    UniqueFd there(ends[1]);
+    here = aboveStreams(std::move(here));
+    there = aboveStreams(std::move(there));
+    if (!here.valid() || !there.valid()) {
+        return systemError("fcntl(F_DUPFD_CLOEXEC)");
+    }
+    return std::pair(Channel(std::move(here)), Channel(std::move(there)));
 }
 
 Status Channel::send(const Message& message, std::uint64_t call, std::span<const int> fds,
@@ -191,8 +205,12 @@ Result<Packet> Channel::receiveBytes(std::uint64_t timeout_ns) const {
             return systemError("recvmsg");
         }
         std::vector<UniqueFd> fds = takeDescriptors(header);
-        if (size == 0) {
+        if (size == 0 && hungUp(socket_.get())) {
             return closed();
+        }
+        if (size == 0) {
+            return Error{SLUICE_ERROR_INVALID_ARGUMENT, kThing, "a message of 0 bytes came",
+                         "the other process is broken"};
         }
         if ((static_cast<unsigned>(header.msg_flags) & unsigned{MSG_TRUNC | MSG_CTRUNC}) != 0) {
             return Error{

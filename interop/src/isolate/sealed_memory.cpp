@@ -11,6 +11,8 @@
 #include <cstring>
 #include <utility>
 
+#include "sluice/isolate/above_streams.hpp"
+
 namespace sluice::isolate {
 
 namespace {
@@ -25,7 +27,7 @@ Error systemError(const char* call, std::size_t size) {
 }
 
 Result<UniqueFd> makeFile(std::size_t size) {
-    UniqueFd fd(::memfd_create("sluice", MFD_CLOEXEC | MFD_ALLOW_SEALING));
+    UniqueFd fd = aboveStreams(UniqueFd(::memfd_create("sluice", MFD_CLOEXEC | MFD_ALLOW_SEALING)));
     if (!fd.valid() || ::ftruncate(fd.get(), static_cast<off_t>(size)) != 0) {
         return systemError("memfd_create", size);
     }

@@ -52,6 +52,14 @@ void answer(const Channel& channel, std::string_view what, std::uint64_t call) {
     } else if (what == "answers") {
         while (send(channel, returned, call)) {
         }
+    } else if (what == "twice") {
+        (void)(send(channel, returned, call) && send(channel, returned, call));
+    } else if (what == "empty") {
+        (void)::send(kChannelFd, "", 0, MSG_NOSIGNAL);
+        sleepOn();
+    } else if (what == "half-closed") {
+        (void)::shutdown(kChannelFd, SHUT_WR);
+        sleepOn();
     } else if (what == "talks") {
         (void)send(channel, Log{{}, SLUICE_LOG_INFO, "a word"}, 0);
         sleepOn();

@@ -43,6 +43,7 @@ struct FluidHostConfig {
     /// A call into the renderer that has not come back by then is logged, once, by a thread of the host's own; a call
     /// that may wait gets that time in addition. 0: there is no such thread.
     std::uint64_t call_alarm_ns = 10'000'000'000ULL;
+    /// Called on any thread. It must not wait for the thread that renders: that one may be waiting for it.
     std::function<void(SluiceLogLevel, std::string_view)> log;
 };
 

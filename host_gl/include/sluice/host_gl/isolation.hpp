@@ -10,6 +10,8 @@
 
 namespace sluice::host {
 
+/// Log lines and trace events of the process come on a thread of the host's own. A callback for them must not wait for
+/// the thread that renders: while it does, calls of a process that has ended take up to 30 s to say so.
 struct IsolationConfig {
     std::filesystem::path program;  ///< sluice-renderer
     std::filesystem::path plugin;
