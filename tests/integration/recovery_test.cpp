@@ -4,10 +4,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "gl_test.hpp"
 #include "recovery_rig.hpp"
 #include "sluice/abi_sizes.hpp"
+#include "sluice/capability_words.hpp"
 #include "sluice/host_gl/recovery.hpp"
+#include "sluice/ledger/hand_off_feed.hpp"
+#include "sluice/ledger/log.hpp"
 
 namespace sluice::host::test {
 namespace {
@@ -156,6 +161,10 @@ TEST_F(RecoveryTest, PartsThatCannotBeAreRefusedAtOnceWhileThereIsNoRenderer) {
     none = particles;
     none.struct_size = 4;
     EXPECT_EQ(host_->setParticles(none).error().code, SLUICE_ERROR_INVALID_ARGUMENT);
+    none = particles;
+    none.count = host_->info().capabilities.reserved[kMaxParticlesWord] + 1;  // none of which is read
+    ASSERT_GT(none.count, 1U);
+    EXPECT_THAT(host_->setParticles(none).error().message(), HasSubstr("this device takes at most"));
     auto environment = sized<SluiceEnvironment>();
     environment.width = environment.height = UINT32_MAX;
     environment.pixels = positions.data();
@@ -250,7 +259,10 @@ TEST_F(RecoveryTest, AResizeThatFindsNoMemoryIsMadeUpForByANewRenderer) {
 }
 
 TEST_F(RecoveryTest, LeavesNoDescriptorBehindAndNothingForTheLedger) {
-    ledger_ = std::make_unique<ledger::LiveLedger>();
+    const std::string path = std::filesystem::path(::testing::TempDir()) / "recovery.sluicelog";
+    auto writer = ledger::LogWriter::create(path);
+    ASSERT_TRUE(writer) << writer.error().message();
+    ledger_ = std::make_unique<ledger::LiveLedger>(ledger::LedgerOptions{}, std::move(writer).value());
     FluidHostConfig wanted = recovering(SLUICE_TIMELINE_BRIDGED);
     wanted.ledger = ledger_.get();
     wanted.recovery.settled_frames = 1;
@@ -266,8 +278,17 @@ TEST_F(RecoveryTest, LeavesNoDescriptorBehindAndNothingForTheLedger) {
         }
     }
     EXPECT_TRUE(descriptorsReturnTo(settled)) << openDescriptors() << " instead of " << settled;
+    EXPECT_EQ(run(1), "f");
     finish();
     EXPECT_THAT(found(), IsEmpty());
+    int drains = 0;
+    ledger::LogSink sink;
+    sink.event = [&drains](const ledger::Event& event) {
+        drains += event.kind == ledger::EventKind::Signal && event.object == ledger::kQueueDrains ? 1 : 0;
+    };
+    ASSERT_TRUE(ledger::readLog(path, sink));
+    std::filesystem::remove(path);
+    EXPECT_EQ(drains, 1) << "only the last of seven renderers had a device to wait for";
     complaints_.clear();
 }
 

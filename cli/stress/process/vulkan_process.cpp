@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kCallSeconds = 30;  ///< far more than any wait inside a call
 constexpr std::uint64_t kCallNs = kCallSeconds * 1'000'000'000;
-constexpr std::uint64_t kGraceNs = 10'000'000'000;  ///< for a process that was asked to end
+constexpr std::uint64_t kClosingNs = 1'000'000'000;  ///< between the two directions of a channel whose process ends
 
 }  // namespace
 
@@ -64,11 +64,18 @@ void VulkanProcess::watch() {
     std::array<pollfd, 2> watched{{{channel_.fd(), 0, 0}, {child_.endFd(), POLLIN, 0}}};
     while (::poll(watched.data(), watched.size(), -1) < 0) {
     }
-    const std::string how = child_.reap(kGraceNs).text();
+    bool condemned = false;
     {
         const std::lock_guard lock(mutex_);
+        condemned = !blame_.empty();
+    }
+    const host::ChildEnd ended = child_.reap(condemned ? 0 : child_.watch().grace_ns);
+    const std::string how = (ended.late() ? "closed its channel, " : "") + ended.text();
+    {
+        const std::lock_guard lock(mutex_);
+        const std::string blame = ended.kind == host::ChildEnd::Kind::Stuck ? blame_ + ", but " + how : blame_;
         end_ = Error{SLUICE_ERROR_DEVICE_LOST, name(),
-                     blame_.empty() ? fmt::format("{} during {} or after it", how, doing_) : blame_,
+                     blame_.empty() ? fmt::format("{} during {} or after it", how, doing_) : blame,
                      "what it said, if anything, stands above; the same command may be run again, and with --topology "
                      "bridge-thread there is no such process"};
         for (isolate::SharedTimeline* timeline : waited_for_) {
@@ -102,6 +109,9 @@ Result<VulkanProcess::Reply> VulkanProcess::call(const Request& request, std::sp
     const Status sent = channel_.sendBytes(bytesOf(request), fds, kCallNs);
     Result<isolate::Packet> came = sent ? channel_.receiveBytes(kCallNs) : Result<isolate::Packet>(Error(sent.error()));
     if (!came && came.error().code == SLUICE_ERROR_DEVICE_LOST) {
+        if (!channel_.closedThere(kClosingNs)) {
+            condemn(fmt::format("would not {} {}, though it lives, and was killed", sent ? "answer" : "take", doing));
+        }
         return gone();
     }
     if (!came) {

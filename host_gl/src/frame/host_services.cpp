@@ -12,18 +12,53 @@ namespace sluice::host {
 
 namespace {
 
-/// Runs `take`, which consumes the descriptor of `image` if it succeeds; the ledger hears whose it is then.
+/// Tells the ledger of an image that the renderer brings; unless it is taken, its descriptor is the renderer's again.
+class ToldOffer {
+  public:
+    ToldOffer(ledger::ShareFeed* shares, const SluiceImageExport& image) : shares_(shares), image_(image) {
+        if (shares_ != nullptr) {
+            shares_->offered(image_);
+        }
+    }
+    ToldOffer(const ToldOffer&) = delete;
+    ToldOffer& operator=(const ToldOffer&) = delete;
+    ~ToldOffer() {
+        if (!taken_ && shares_ != nullptr) {
+            shares_->handedBack(image_);
+        }
+    }
+    void taken() { taken_ = true; }
+
+  private:
+    ledger::ShareFeed* shares_;
+    const SluiceImageExport& image_;
+    bool taken_ = false;
+};
+
+/// Runs `take`, which consumes the descriptor of `image` if it succeeds and may run out of memory; the ledger hears
+/// whose it is then.
 template <typename Take>
 Status takeOffer(ledger::ShareFeed* shares, const SluiceImageExport& image, const Take& take) {
-    if (shares != nullptr) {
-        shares->offered(image);
-    }
+    ToldOffer offer(shares, image);
     Status status = take();
-    if (!status && shares != nullptr) {
-        shares->handedBack(image);
+    if (status) {
+        offer.taken();
     }
     return status;
 }
+
+/// The image of a canary is gone again, however the canary went.
+struct CanaryEnd {
+    explicit CanaryEnd(ledger::ShareFeed* feed) : shares(feed) {}
+    CanaryEnd(const CanaryEnd&) = delete;
+    CanaryEnd& operator=(const CanaryEnd&) = delete;
+    ~CanaryEnd() {
+        if (shares != nullptr) {
+            shares->canaryEnds();
+        }
+    }
+    ledger::ShareFeed* shares;
+};
 
 /// The renderer must give back the pointer that came with the services.
 Status checkUser(const void* user) {
@@ -135,11 +170,8 @@ SluiceResult HostServices::canaryService(void* user, const SluiceImageExport* im
         }
         ledger::ShareFeed* shares = static_cast<HostServices*>(user)->shares_;
         const SluiceImageExport offer = readAbiStruct(*image);
-        Status status = takeOffer(shares, offer, [&] { return runCanary(offer, seed, shares); });
-        if (shares != nullptr) {
-            shares->canaryEnds();
-        }
-        return status;
+        const CanaryEnd end(shares);
+        return takeOffer(shares, offer, [&] { return runCanary(offer, seed, shares); });
     });
 }
 

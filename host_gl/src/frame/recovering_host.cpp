@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "frame/descriptor_note.hpp"
+#include "sluice/capability_words.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::host {
@@ -127,6 +128,7 @@ void RecoveringHost::fault(const Error& cause) {
         return;
     }
     recovery_.fault();
+    fault_told_ = false;
     down_since_ns_ = monotonicNanoseconds();
     try_failed_ = false;
     cause_ = Error{cause.code, cause.thing, cause.detail, {}}.message();  // the remedy is what is done here
@@ -137,6 +139,22 @@ void RecoveringHost::fault(const Error& cause) {
                           "host's frames go on without fluid: {}",
                           last_fluid_ + 1, frames(recovery_.framesToGo()), recovery_.tries() + 1,
                           config_.recovery.attempts, cause_));
+    fault_told_ = true;
+}
+
+Status RecoveringHost::checkFits(const SluiceParticles& particles) const {
+    Status status = checkPart(particles);
+    const std::uint32_t most = info_.capabilities.reserved[kMaxParticlesWord];
+    if (status && most != 0 && particles.count > most) {
+        // Kept, they would take the place of those that it had accepted, and go with it when it comes back.
+        return Error{SLUICE_ERROR_UNSUPPORTED, "particles",
+                     fmt::format("this device takes at most {}, found {}", most, particles.count), "use fewer"};
+    }
+    return status;
+}
+
+Status RecoveringHost::checkFits(const SluiceEnvironment* environment) const {
+    return checkPart(environment);
 }
 
 Error RecoveringHost::whileDown(const char* call) const {

@@ -110,7 +110,7 @@ class RecoveringHost final : public FluidHost {
         return life_ && !recovery_.down() ? life_->texture(role) : 0;
     }
     [[nodiscard]] std::uint32_t renderers() const override { return renderers_; }
-    [[nodiscard]] bool recovering() const override { return recovery_.down(); }
+    [[nodiscard]] bool recovering() const override { return recovery_.down() && fault_told_; }
 
   private:
     /// Without recovery the present renderer answers for itself, whatever has become of it.
@@ -137,6 +137,9 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Status judged(Status status);
     void fault(const Error& cause);
     [[nodiscard]] Error whileDown(const char* call) const;
+    /// While there is no renderer: what the last one would refuse for its size, and the next one with it.
+    [[nodiscard]] Status checkFits(const SluiceParticles& particles) const;
+    [[nodiscard]] Status checkFits(const SluiceEnvironment* environment) const;
     void log(SluiceLogLevel level, const std::string& text);
 
     const PluginLibrary& library_;
@@ -156,13 +159,14 @@ class RecoveringHost final : public FluidHost {
     std::uint64_t last_fluid_ = 0;     ///< the frame of that composite
     std::uint64_t down_since_ns_ = 0;
     bool try_failed_ = false;  ///< since the fault
+    bool fault_told_ = false;  ///< the log has its line
     std::string cause_;
     std::string_view context_loss_;  ///< empty while there is a context
 };
 
 template <typename Call, typename Value>
 Status RecoveringHost::give(Call call, const Value& value) {
-    Status status = recovery_.down() ? checkPart(value) : judged(call());
+    Status status = recovery_.down() ? checkFits(value) : judged(call());
     if (recovers() && !refused(status)) {
         scene_.keep(value);
     }
@@ -180,6 +184,7 @@ Status RecoveringHost::caught(Body body) {
         });
         if (!told && life_ && recovers()) {
             recovery_.fault();  // all that is lost is its line in the log
+            fault_told_ = false;
         }
     }
     return status;
