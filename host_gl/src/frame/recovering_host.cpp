@@ -153,10 +153,6 @@ Status RecoveringHost::checkFits(const SluiceParticles& particles) const {
     return status;
 }
 
-Status RecoveringHost::checkFits(const SluiceEnvironment* environment) const {
-    return checkPart(environment);
-}
-
 Error RecoveringHost::whileDown(const char* call) const {
     return Error{SLUICE_ERROR_DEVICE_LOST, call, "there is no renderer: " + cause_,
                  recovery_.givenUp() ? "destroy the FluidHost and create it again" : "it is created again"};

@@ -139,7 +139,10 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Error whileDown(const char* call) const;
     /// While there is no renderer: what the last one would refuse for its size, and the next one with it.
     [[nodiscard]] Status checkFits(const SluiceParticles& particles) const;
-    [[nodiscard]] Status checkFits(const SluiceEnvironment* environment) const;
+    template <typename Part>
+    [[nodiscard]] Status checkFits(const Part* part) const {
+        return checkPart(part);
+    }
     void log(SluiceLogLevel level, const std::string& text);
 
     const PluginLibrary& library_;

@@ -66,9 +66,9 @@ struct FrameInput {
 /// A renderer that has become useless (its device is lost, a resize found no memory, deadlines pass in a row ...) is
 /// destroyed and created again by submit(), as FluidHostConfig::recovery says; that submit() takes as long as create()
 /// does. Until then submit() fails, at once, and the frames are the host's alone. The new renderer gets the particles,
-/// the environment and the simulation that were set last, of which the FluidHost keeps a copy; what it refuses of them is
-/// dropped. What had flowed is lost with the renderer: the simulation begins again from its initial state. What happens
-/// is logged, a line each.
+/// the environment and the simulation that were set last, of which the FluidHost keeps a copy; what it refuses of them
+/// is dropped. What had flowed is lost with the renderer: the simulation begins again from its initial state. What
+/// happens is logged, a line each.
 ///
 /// A GL context that is lost (contextLoss()) ends the FluidHost: every call says so, and nothing more is asked of GL
 /// but to free its objects. Make a context, and a FluidHost in it.
