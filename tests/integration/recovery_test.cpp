@@ -114,12 +114,12 @@ TEST_F(RecoveryTest, ARendererThatKeepsFailingIsGivenUpAfterItsTriesAndSaidOnceE
 
 TEST_F(RecoveryTest, TheNewRendererGetsTheScene) {
     ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
-    std::vector<float> positions(3 * 7, 0.25F);
+    std::vector<float> positions(std::size_t{3} * 7, 0.25F);
     auto particles = sized<SluiceParticles>();
     particles.count = 7;
     particles.radius = 0.5F;
     particles.position = positions.data();
-    const std::vector<float> pixels(3 * 2 * 1, 0.5F);
+    const std::vector<float> pixels(std::size_t{3} * 2, 0.5F);
     auto environment = sized<SluiceEnvironment>();
     environment.width = 2;
     environment.height = 1;
@@ -142,7 +142,7 @@ TEST_F(RecoveryTest, TheNewRendererGetsTheScene) {
 
 TEST_F(RecoveryTest, PartsThatCannotBeAreRefusedAtOnceWhileThereIsNoRenderer) {
     ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
-    std::vector<float> positions(3 * 7, 0.25F);
+    std::vector<float> positions(std::size_t{3} * 7, 0.25F);
     auto particles = sized<SluiceParticles>();
     particles.count = 7;
     particles.radius = 0.5F;
@@ -179,7 +179,7 @@ TEST_F(RecoveryTest, PartsThatCannotBeAreRefusedAtOnceWhileThereIsNoRenderer) {
 
 TEST_F(RecoveryTest, APartThatANewRendererRefusesIsDroppedAndTheRestGoesOn) {
     ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
-    const std::vector<float> floats(3 * 7, 0.25F);
+    const std::vector<float> floats(std::size_t{3} * 7, 0.25F);
     auto particles = sized<SluiceParticles>();
     particles.count = 7;
     particles.radius = 0.5F;
