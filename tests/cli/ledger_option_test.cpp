@@ -124,12 +124,21 @@ TEST_F(LedgerOption, ADroppedSignalCostsOneFrameItsFluidAndTheLogTellsWhoWaitsFo
 }
 
 TEST_F(LedgerOption, ALostDeviceCostsOneFrameItsFluidAndAnotherRendererGoesOn) {
-    const Outcome outcome = run("render s.json -o a_####.png --frames 1..4 --fault device-lost@2 --json -v");
+    const Outcome outcome =
+        run("render s.json -o a_####.png --frames 1..4 --fault device-lost@2 --json -v --ledger-log a.log");
     EXPECT_EQ(outcome.code, 3);
     EXPECT_THAT(outcome.err, HasSubstr("renderer: here again after 1 frame without fluid"));
     const auto frames = nlohmann::json::parse(outcome.out).at("frames");
     EXPECT_EQ(frames.at("written"), 4);
     EXPECT_EQ(frames.at("with_fluid"), 3);
+    const auto log = nlohmann::json::parse(run("diagnose a.log --json").out);
+    EXPECT_EQ(log.at("report").at("frames").size(), 4U) << "the frames of both renderers, as the host counts them";
+    std::vector<std::string> actors;
+    for (const auto& actor : log.at("actors")) {
+        actors.push_back(actor.at("name"));
+    }
+    EXPECT_THAT(actors, Contains("renderer's queue"));
+    EXPECT_THAT(actors, Contains("renderer's queue, 2nd renderer"));
     const Outcome late = run("render s.json -o b.png --fault device-lost@9");
     EXPECT_EQ(late.code, 0) << late.err;
     EXPECT_THAT(late.err, HasSubstr("never came"));

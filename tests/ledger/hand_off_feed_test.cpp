@@ -338,6 +338,38 @@ TEST(HandOffFeed, BridgeAndQueueStandStillUntilTheyAreFed) {
     EXPECT_EQ(stood->event.object, kHostToRenderer);
 }
 
+/// The lives of one host's renderers in one log: frames go on as the host counts them, and names tell who was whose.
+TEST(HandOffFeed, AnotherRendererGoesOnWithTheHostsFramesUnderItsOwnName) {
+    const std::string path = std::filesystem::path(::testing::TempDir()) / "lives.sluicelog";
+    auto log = LogWriter::create(path);
+    ASSERT_TRUE(log) << log.error().message();
+    LiveLedger ledger(LedgerOptions{}, std::move(log).value());
+    for (const RendererLife life : {RendererLife{1, 0}, RendererLife{2, 3}}) {
+        ledger.rendererBegins(life);
+        HandOffFeed feed(ledger, SLUICE_TIMELINE_BRIDGED, 2);
+        feed.captureBegins(1);
+        feed.captureEnds(1);
+        ASSERT_TRUE(feed.submits(1));
+        EXPECT_THAT(feed.waitForChain(1), HasSubstr(life.number == 1 ? "has frame 1, " : "has frame 4, "));
+    }
+    EXPECT_EQ(ledger.unchecked()->since_frame, 1U);
+    ASSERT_TRUE(ledger.finish(End::Closed));
+    const auto read = loadRecording(path);
+    std::filesystem::remove(path);
+    ASSERT_TRUE(read) << read.error().message();
+    std::map<std::string, std::uint32_t> frame;
+    for (const RecordedEvent& one : read.value().events) {
+        if (one.event.kind == EventKind::Frame) {
+            EXPECT_EQ(one.event.value, one.frame);
+            frame[read.value().actors.at(one.actor).name] = one.frame;
+        }
+    }
+    EXPECT_THAT(frame,
+                ::testing::ElementsAre(std::pair("GL stream", 1U), std::pair("GL stream, 2nd renderer", 4U),
+                                       std::pair("host thread", 1U), std::pair("host thread, 2nd renderer", 4U)));
+    EXPECT_EQ((RendererLife{11, 0}.nameOf("x") + RendererLife{23, 0}.nameOf("y")), "x, 11th renderery, 23rd renderer");
+}
+
 TEST(HandOffFeed, OnlyAQueueThatWasWaitedForIsThroughWithTheImages) {
     for (const bool drained : {true, false}) {
         Mistake skip;

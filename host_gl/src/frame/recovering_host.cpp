@@ -8,6 +8,7 @@
 
 #include "frame/descriptor_note.hpp"
 #include "sluice/capability_words.hpp"
+#include "sluice/ledger/live.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::host {
@@ -27,6 +28,9 @@ Status RecoveringHost::begin() {
         if (config.fault->frame == 0) {
             config.fault.reset();
         }
+    }
+    if (config.ledger != nullptr) {
+        config.ledger->rendererBegins({renderers_ + 1, base_});
     }
     auto life = std::make_unique<RendererLife>(config, watch_, faults_);
     if (Status status = withDescriptorNote(life->start(library_)); !status) {

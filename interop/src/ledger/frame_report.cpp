@@ -131,6 +131,11 @@ FrameReport reportFrame(const Recording& recording, const std::vector<Step>& ste
     return report;
 }
 
+/// What ends after a frame was the last of its actor or object; how long that was put off is no time of the frame's.
+bool endsSomething(const Event& event) {
+    return event.kind == EventKind::ActorEnd || event.kind == EventKind::Destroy;
+}
+
 }  // namespace
 
 Distribution distribution(std::vector<std::uint64_t> values) {
@@ -148,7 +153,7 @@ Report makeReport(const Recording& recording, const std::vector<Step>& steps) {
     std::map<std::uint32_t, std::vector<std::uint32_t>> frames;
     Samples all;
     for (std::uint32_t i = 0; i < recording.events.size(); ++i) {
-        if (recording.events[i].frame != 0) {
+        if (recording.events[i].frame != 0 && !endsSomething(recording.events[i].event)) {
             frames[recording.events[i].frame].push_back(i);
         }
         if (recording.events[i].event.kind == EventKind::Wait) {

@@ -27,18 +27,18 @@ std::uint64_t frameOf(std::uint64_t host_value) {
 }  // namespace
 
 HandOffFeed::HandOffFeed(LiveLedger& ledger, SluiceTimelineKind kind, std::uint32_t image_sets)
-    : ledger_(ledger), kind_(kind), sets_(image_sets) {
+    : ledger_(ledger), life_(ledger.rendererLife()), kind_(kind), sets_(image_sets) {
     held_.fill(true);
-    ledger_.declareActor(kHostThread, ActorKind::HostThread, "host thread");
-    ledger_.declareActor(kGlStream, ActorKind::GlContext, "GL stream");
-    ledger_.declareActor(kRendererQueue, ActorKind::VulkanQueue, "renderer's queue");
+    ledger_.declareActor(kHostThread, ActorKind::HostThread, life_.nameOf("host thread"));
+    ledger_.declareActor(kGlStream, ActorKind::GlContext, life_.nameOf("GL stream"));
+    ledger_.declareActor(kRendererQueue, ActorKind::VulkanQueue, life_.nameOf("renderer's queue"));
     ledger_.declareSync(kSubmissions, SyncKind::Timeline, "submissions", 0, 0);
     ledger_.declareSync(kQueueDrains, SyncKind::Timeline, "renderer idle", 0, 0);
     ledger_.declareSync(kGlFinishes, SyncKind::Timeline, "calls of glFinish", 0, 0);
     if (kind_ == SLUICE_TIMELINE_BRIDGED) {
         ledger_.declareSync(kGlFences, SyncKind::Timeline, "GL fences", 0, 0);
         ledger_.declareSync(kPromises, SyncKind::Timeline, "fences for the bridge", 0, 0);
-        ledger_.declareActor(kBridgeThread, ActorKind::BridgeThread, "bridge thread");
+        ledger_.declareActor(kBridgeThread, ActorKind::BridgeThread, life_.nameOf("bridge thread"));
     }
     if (kind_ != SLUICE_TIMELINE_BINARY) {
         const std::uint16_t flags = listed() ? kListedOnly : 0;
@@ -84,8 +84,8 @@ void HandOffFeed::put(EventKind kind, ActorId actor, ObjectId object, std::uint6
     event.kind = kind;
     event.actor = actor;
     event.object = object;
-    event.frame = static_cast<std::uint32_t>(frame);
-    event.value = value;
+    event.frame = static_cast<std::uint32_t>(frame == 0 ? 0 : life_.frames_before + frame);
+    event.value = kind == EventKind::Frame ? life_.frames_before + value : value;
     event.time_ns = begin_ns != 0 ? begin_ns : monotonicNanoseconds();
     event.duration_ns = duration_ns;
     event.flags = flags;

@@ -14,8 +14,9 @@ namespace sluice::ledger {
 void HandOffFeed::queueUntold() {
     put(EventKind::ActorEnd, kRendererQueue, kNoObject, queue_frame_, 0, 0, 0, kUntold);
     if (!blind_) {
-        ledger_.leaveUnchecked({queue_frame_ + 1, heard_ ? "the renderer told nothing more of its queue"
-                                                         : "the renderer told nothing of its queue"});
+        ledger_.leaveUnchecked(
+            {life_.frames_before + queue_frame_ + 1,
+             heard_ ? "the renderer told nothing more of its queue" : "the renderer told nothing of its queue"});
     }
 }
 
@@ -46,7 +47,7 @@ void HandOffFeed::simulationMade(std::uint32_t slots) {
         return;
     }
     if (slots_ == 0) {
-        ledger_.declareActor(kSimulationQueue, ActorKind::VulkanQueue, "simulation");
+        ledger_.declareActor(kSimulationQueue, ActorKind::VulkanQueue, life_.nameOf("simulation"));
         ledger_.declareSync(kFramesDone, SyncKind::Timeline, "frames that drew", 0, 0);
     }
     ledger_.declareSync(kSimulation, SyncKind::Timeline, "simulation", 0, 0);
@@ -162,10 +163,12 @@ std::string HandOffFeed::waitForChain(std::uint64_t value) const {
     // The renderer has not told of this frame yet; what it was submitted with is known all the same.
     const std::uint64_t wanted = gbufferWritten(value);
     if (value > submitted_) {
-        return text + fmt::format("  frame {} has not been submitted; the last one is {}\n", value, submitted_);
+        return text + fmt::format("  frame {} has not been submitted; the last one is {}\n",
+                                  life_.frames_before + value, submitted_ == 0 ? 0 : life_.frames_before + submitted_);
     }
     text += fmt::format("  renderer's queue has frame {}, submitted to wait for host-to-renderer >= {}, which {} {}\n",
-                        value, wanted, signalled_ >= wanted ? "has passed that with" : "has reached", signalled_);
+                        life_.frames_before + value, wanted,
+                        signalled_ >= wanted ? "has passed that with" : "has reached", signalled_);
     if (signalled_ >= wanted) {
         return text + "  so the renderer itself is late: its GPU work, or its device\n";
     }

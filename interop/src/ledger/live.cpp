@@ -6,6 +6,16 @@
 
 namespace sluice::ledger {
 
+std::string RendererLife::nameOf(std::string_view actor) const {
+    if (number <= 1) {
+        return std::string(actor);
+    }
+    const bool teen = number % 100 / 10 == 1;
+    const std::uint32_t last = teen ? 0 : number % 10;
+    const char* ending = last == 1 ? "st" : last == 2 ? "nd" : last == 3 ? "rd" : "th";
+    return std::string(actor) + ", " + std::to_string(number) + ending + " renderer";
+}
+
 LiveLedger::LiveLedger(LedgerOptions options, std::unique_ptr<LogWriter> log)
     : ledger_(options), log_(std::move(log)) {}
 
@@ -76,6 +86,16 @@ void LiveLedger::recordMemory(const Event& event, const MemoryFacts& facts) {
 std::vector<std::string> LiveLedger::waitChain(ActorId actor) const {
     const std::lock_guard lock(mutex_);
     return ledger_.waitChain(actor);
+}
+
+void LiveLedger::rendererBegins(RendererLife life) {
+    const std::lock_guard lock(mutex_);
+    life_ = life;
+}
+
+RendererLife LiveLedger::rendererLife() const {
+    const std::lock_guard lock(mutex_);
+    return life_;
 }
 
 void LiveLedger::leaveUnchecked(Unchecked what) {

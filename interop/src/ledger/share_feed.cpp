@@ -51,8 +51,9 @@ Event eventOf(EventKind kind, ActorId actor, ObjectId object) {
 }  // namespace
 
 ShareFeed::ShareFeed(LiveLedger& ledger) : ledger_(ledger) {
-    ledger_.declareActor(kHostThread, ActorKind::HostThread, "host thread");
-    ledger_.declareActor(kRenderer, ActorKind::Process, "renderer");
+    const RendererLife life = ledger_.rendererLife();
+    ledger_.declareActor(kHostThread, ActorKind::HostThread, life.nameOf("host thread"));
+    ledger_.declareActor(kRenderer, ActorKind::Process, life.nameOf("renderer"));
 }
 
 ShareFeed::~ShareFeed() {

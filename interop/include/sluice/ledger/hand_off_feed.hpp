@@ -45,7 +45,8 @@ inline constexpr ObjectId kHostToRenderer = 0, kRendererToHost = 1, kSubmissions
 /// Any thread. `begin_ns` is CLOCK_MONOTONIC; the other events are given the time of the call.
 class HandOffFeed {
   public:
-    /// `kind`: what renderer and host have settled on. The ledger must outlive the feed.
+    /// `kind`: what renderer and host have settled on. The ledger must outlive the feed. Frames are told as the
+    /// renderer counts them; the ledger gets them with those before its rendererLife() added, as the host counts.
     HandOffFeed(LiveLedger& ledger, SluiceTimelineKind kind, std::uint32_t image_sets);
     HandOffFeed(const HandOffFeed&) = delete;
     HandOffFeed& operator=(const HandOffFeed&) = delete;
@@ -126,6 +127,7 @@ class HandOffFeed {
     FrameTimes& times(std::uint64_t frame) { return times_[frame % times_.size()]; }
 
     LiveLedger& ledger_;
+    RendererLife life_;
     SluiceTimelineKind kind_;
     std::uint32_t sets_;
     mutable std::mutex mutex_;  // guards all below, and that each actor's events come in its own order

@@ -24,6 +24,15 @@ struct Unchecked {
     std::string why;
 };
 
+/// Of the renderers that one host has one after the other: which this is, and the frames that went before it.
+struct RendererLife {
+    std::uint32_t number = 1;
+    std::uint64_t frames_before = 0;
+
+    /// `actor` of this renderer's time: as it is for the first, "actor, 2nd renderer" for the second.
+    [[nodiscard]] std::string nameOf(std::string_view actor) const;
+};
+
 /// A Ledger behind a mutex. The log, if there is one, has every record in the order in which the ledger got it.
 class LiveLedger {
   public:
@@ -41,6 +50,10 @@ class LiveLedger {
     /// An Export or Import, with what it says of the memory.
     void recordMemory(const Event& event, const MemoryFacts& facts);
     [[nodiscard]] std::vector<std::string> waitChain(ActorId actor) const;
+
+    /// A renderer is about to be made: the feeds that are made from now on speak of it, and number its frames on.
+    void rendererBegins(RendererLife life);
+    [[nodiscard]] RendererLife rendererLife() const;
 
     /// Whoever tells this ledger knows that it is not told everything. The first word stays.
     void leaveUnchecked(Unchecked what);
@@ -63,6 +76,7 @@ class LiveLedger {
     bool finished_ = false;                                        // guarded by mutex_
     std::map<ActorId, std::pair<ActorKind, std::string>> living_;  // guarded by mutex_
     std::optional<Unchecked> unchecked_;                           // guarded by mutex_
+    RendererLife life_;                                            // guarded by mutex_
 };
 
 }  // namespace sluice::ledger

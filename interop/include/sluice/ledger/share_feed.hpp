@@ -20,7 +20,7 @@
 namespace sluice::ledger {
 
 /// The renderer as a whole, beside its queue: who exports.
-inline constexpr ActorId kRenderer = 4;
+inline constexpr ActorId kRenderer = 5;
 
 /// Any thread. No call throws: what cannot be recorded is lost.
 class ShareFeed {
