@@ -14,11 +14,13 @@ struct Body {
 layout(std140, set = 0, binding = BODIES_BINDING) uniform Bodies { Body body[16]; } b;
 layout(std430, set = 0, binding = BODIES_BINDING + 1) buffer Pushes { uint push_sum[]; };
 
-// Whole numbers add up to the same whatever their order. 12 bits apart, so that a million of them fit.
+// Whole numbers add up to the same whatever their order. 12 bits apart: the low part takes a million of them, each time
+// that it wraps around the high part gets what it was worth.
 void addWhole(uint at, float value) {
     const int whole = int(round(clamp(value, -67108864.0, 67108864.0)));
-    atomicAdd(push_sum[at], uint(whole & 0xfff));
-    atomicAdd(push_sum[at + 1u], uint(whole >> 12));
+    const uint low = uint(whole & 0xfff);
+    const uint before = atomicAdd(push_sum[at], low);
+    atomicAdd(push_sum[at + 1u], uint(whole >> 12) + (before + low < before ? 1u << 20 : 0u));
 }
 
 // Body k has moved a particle at x by `push`, m.

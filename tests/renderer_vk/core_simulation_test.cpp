@@ -175,6 +175,8 @@ TEST_F(LiveFluid, CallsOutOfOrderAreRefusedByName) {
     Block bad;
     bad.solid.kind = 9;
     EXPECT_EQ(api().set_simulation(renderer->get(), &bad.simulation, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(simulate(4, 0.0), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(said.message).find("there is no simulation"), std::string::npos) << said.message;
     bad.solid.kind = SLUICE_SOLID_SPHERE;
     bad.simulation.frames_in_flight = 4;
     EXPECT_EQ(api().set_simulation(renderer->get(), &bad.simulation, &said), SLUICE_ERROR_INVALID_ARGUMENT);
@@ -218,6 +220,54 @@ TEST_F(LiveFluid, EndsWhileItRunsAndWhileAFrameWaitsForAPromiseThatIsNeverKept) 
     }
     renderer->destroy();
     EXPECT_EQ(logged("validation:"), 0U);
+}
+
+TEST_F(LiveFluid, EndsAfterTheStepUnderWayAndNotAfterTheValue) {
+    Block block;
+    block.simulation.longest_step = 0.005;
+    ASSERT_NO_FATAL_FAILURE(start(block, true));
+    const auto steps = [this] {
+        const auto events = host->events();
+        return std::count_if(events.begin(), events.end(), [](const SeenEvent& seen) {
+            return seen.event.track == SLUICE_TRACK_SIMULATION && seen.name == "step";
+        });
+    };
+    ASSERT_EQ(simulate(1, 20.0), SLUICE_OK);  // 4000 steps
+    while (steps() == 0) {
+        ASSERT_EQ(stats().failed, 0U) << stats().message;
+    }
+    EXPECT_EQ(api().set_simulation(renderer->get(), nullptr, nullptr), SLUICE_OK);
+    EXPECT_LT(steps(), 4000);
+    renderer->destroy();
+}
+
+TEST_F(LiveFluid, TooLittleTimeForAStepIsOwedToTheNextValue) {
+    const Block block;
+    ASSERT_NO_FATAL_FAILURE(start(block));
+    ASSERT_EQ(simulate(1, 1e-300), SLUICE_OK);
+    const std::vector<std::byte> before = draw(1, 1);
+    ASSERT_EQ(simulate(2, block.simulation.longest_step / 2048.0), SLUICE_OK);
+    EXPECT_EQ(draw(2, 2), before);
+    EXPECT_EQ(stats().steps, 0U);
+    ASSERT_EQ(simulate(3, block.simulation.longest_step / 2048.0), SLUICE_OK);
+    draw(3, 3);
+    EXPECT_EQ(stats().steps, 1U);
+    EXPECT_DOUBLE_EQ(stats().shortest_step, block.simulation.longest_step / 1024.0);
+    ASSERT_EQ(simulate(4, kFrame), SLUICE_OK);
+    draw(4, 4);
+    EXPECT_EQ(stats().failed, 0U) << stats().message;
+}
+
+TEST(SharedBuffers, TheViewOfASecondQueueKnowsBothFamilies) {
+    Device device;
+    int place = 0;
+    device.compute_queue = reinterpret_cast<VkQueue>(&place);
+    device.queue_family = 1;
+    device.compute_family = 2;
+    EXPECT_EQ(device.sharingFamilies(), (std::vector<std::uint32_t>{1, 2}));
+    EXPECT_EQ(device.computeView()->sharingFamilies(), device.sharingFamilies());
+    device.compute_family = 1;
+    EXPECT_TRUE(device.computeView()->sharingFamilies().empty());
 }
 
 TEST_F(LiveFluid, TellsEachStepAndEachSideOfTheHandOver) {

@@ -2,10 +2,20 @@
 // Bodies in the fluid: what they do to it, what it does to them, and what they do to each other.
 #include <gmock/gmock.h>
 
-#include <algorithm>
-#include <cmath>
+#include <shaders/simulation_push_sums_comp.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "device/commands.hpp"
+#include "device/one_shot.hpp"
+#include "device/structs.hpp"
+#include "memory/buffer.hpp"
+#include "passes/pipeline.hpp"
 #include "reference/simulation_reference.hpp"
+#include "simulation/parameters.hpp"
 #include "simulation_rig.hpp"
 
 namespace sluice::vk::test {
@@ -191,6 +201,58 @@ TEST_F(SimulationBodies, ABodyOnAPathPushesTheWaterAndTheSameRunGivesTheSameBits
     for (std::size_t i = 0; i < first.first.position.size(); i += 3) {
         ASSERT_GT(first.first.position[i], 0.39F + 0.98F * settings.radius) << "nobody is left behind the wall";
     }
+}
+
+TEST_F(SimulationBodies, ImpulsesOfMoreThanAMillionPushesDoNotWrapAround) {
+    constexpr std::uint32_t kGroups = 16384 + 1;  // of 64, each of which fills 12 bits of the 32
+    const std::array<VkDescriptorType, 3> types{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
+                                                VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+    const auto pipeline = createCompute(device(), {"push_sums", simulation_push_sums_comp, types, 0, {}});
+    ASSERT_TRUE(pipeline.ok());
+    const auto sums = Buffer::create(
+        device(), {sizeof(BodyPush), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::Readback, "push sums"});
+    ASSERT_TRUE(sums.ok());
+    std::memset(sums.value().mapped().data(), 0, sizeof(BodyPush));
+    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 1};
+    const VkDescriptorPoolSize uniforms{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 2};
+    const std::array<VkDescriptorPoolSize, 2> sizes{size, uniforms};
+    auto pool_info = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
+    pool_info.maxSets = 1;
+    pool_info.poolSizeCount = 2;
+    pool_info.pPoolSizes = sizes.data();
+    VkDescriptorPool pool = VK_NULL_HANDLE;
+    ASSERT_EQ(device().fn.vkCreateDescriptorPool(device().handle, &pool_info, nullptr, &pool), VK_SUCCESS);
+    auto allocate = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
+    allocate.descriptorPool = pool;
+    allocate.descriptorSetCount = 1;
+    allocate.pSetLayouts = &pipeline.value().set_layout;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    ASSERT_EQ(device().fn.vkAllocateDescriptorSets(device().handle, &allocate, &set), VK_SUCCESS);
+    const VkDescriptorBufferInfo whole{sums.value().buffer(), 0, VK_WHOLE_SIZE};
+    auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
+    write.dstSet = set;
+    write.dstBinding = 2;  // it reads neither parameters nor bodies
+    write.descriptorCount = 1;
+    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+    write.pBufferInfo = &whole;
+    device().fn.vkUpdateDescriptorSets(device().handle, 1, &write, 0, nullptr);
+    const Status ran = runOnce(device(), [&](VkCommandBuffer commands) {
+        const Pipeline& p = pipeline.value();
+        device().fn.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p.handle);
+        device().fn.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, p.layout, 0, 1, &set, 0, nullptr);
+        device().fn.vkCmdDispatch(commands, kGroups, 1, 1);
+        memoryBarrier(device(), commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+    });
+    device().fn.vkDestroyDescriptorPool(device().handle, pool, nullptr);
+    ASSERT_TRUE(ran.ok());
+    BodyPush push{};
+    std::memcpy(&push, sums.value().mapped().data(), sizeof push);
+    const auto sum = [&push](std::size_t i) {
+        return static_cast<std::int64_t>(static_cast<std::int32_t>(push.sums.at(i)[1])) * 4096 + push.sums.at(i)[0];
+    };
+    EXPECT_EQ(sum(0), std::int64_t{kGroups} * 64 * 4095);
+    EXPECT_EQ(sum(1), -std::int64_t{kGroups} * 64);
 }
 
 TEST(RigidBodies, KeepTheirSpinAndRestOnTheFloor) {

@@ -259,6 +259,7 @@ std::unique_ptr<Device> Device::computeView() const {
     const bool other = compute_queue != VK_NULL_HANDLE;
     out->queue = other ? compute_queue : queue;
     out->queue_family = other ? compute_family : queue_family;
+    out->shared_families = sharingFamilies();
     if (!other) {
         out->queue_lock = queue_lock;
     }
@@ -287,6 +288,9 @@ VkResult Device::waitIdle() const {
 }
 
 std::vector<std::uint32_t> Device::sharingFamilies() const {
+    if (view) {
+        return shared_families;
+    }
     if (compute_queue == VK_NULL_HANDLE || compute_family == queue_family) {
         return {};
     }

@@ -87,7 +87,7 @@ struct Device {
     /// vkQueueSubmit2 and vkQueueWaitIdle, from any thread: a queue may be another thread's as well.
     [[nodiscard]] VkResult submit(const VkSubmitInfo2& info, VkFence fence) const;
     [[nodiscard]] VkResult waitIdle() const;
-    /// The families of both queues where they differ, for buffers that both use; else empty.
+    /// The families of both queues where they differ, for buffers that both use; else empty. Of a view: the same.
     [[nodiscard]] std::vector<std::uint32_t> sharingFamilies() const;
 
     /// Index of a memory type of `type_bits` with all of `wanted`, preferring one that also has all of `preferred`.
@@ -114,7 +114,8 @@ struct Device {
     const SluiceHostServices* services = nullptr;
     std::shared_ptr<MessageSink> messages;
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
-    bool view = false;  ///< of computeView(): owns nothing
+    bool view = false;                           ///< of computeView(): owns nothing
+    std::vector<std::uint32_t> shared_families;  ///< of a view, which knows one queue only
 };
 
 /// The name of a VkResult, "VK_ERROR_DEVICE_LOST".

@@ -78,8 +78,8 @@ Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>&
     }
     result = device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, kDeadlineNs);
     if (result == VK_TIMEOUT) {
-        // Freeing what the queue still uses would be worse than waiting on.
-        (void)device.waitIdle();
+        // Freeing what the queue still uses would be worse than waiting on; the queue's lock would stop its other user.
+        (void)device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, UINT64_MAX);
         return Error{SLUICE_ERROR_INTERNAL, "one-shot commands", "not finished after 60 s", ""};
     }
     if (result != VK_SUCCESS) {

@@ -68,6 +68,17 @@ Status FrameRing::waitForSlot(std::uint32_t image_set) {
     }
     const SluiceResult result = timeline_.wait(slot.stats.frame, kPatienceNs);
     if (result == SLUICE_TIMEOUT) {
+        if (const SimulatedFluid& fluid = slot.simulated; fluid.value != 0 && fluid.waits) {
+            std::uint64_t reached = 0;
+            (void)device_.fn.vkGetSemaphoreCounterValue(device_.handle, fluid.semaphore, &reached);
+            if (reached < fluid.value) {
+                return Error{
+                    SLUICE_ERROR_INTERNAL, fmt::format("frame {}", slot.stats.frame),
+                    fmt::format("not finished after {} s: the simulation's value {} is not there, the last is {}",
+                                kPatienceNs / 1'000'000'000, fluid.value, reached),
+                    "simulate fewer particles or less time a value, or wait with simulation_wait"};
+            }
+        }
         return Error{SLUICE_ERROR_INTERNAL, fmt::format("frame {}", slot.stats.frame),
                      fmt::format("not finished after {} s, so its image set {} is not free",
                                  kPatienceNs / 1'000'000'000, image_set),

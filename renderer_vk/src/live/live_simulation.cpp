@@ -4,12 +4,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <exception>
 #include <system_error>
 #include <utility>
 
 #include "device/structs.hpp"
+#include "frame/frame_ring.hpp"
 #include "sluice/trace.hpp"
 #include "sync/binary_pool.hpp"
 
@@ -18,6 +20,8 @@ namespace {
 
 /// How often a wait of the thread looks whether it has to end.
 constexpr std::uint64_t kLookNs = 50'000'000;
+/// Of the longest step: less than that is no step, 1/dt of it would be beyond floats.
+constexpr double kLeastPart = 1.0 / 1024.0;
 constexpr std::uint64_t kBytesOfParticle = 6 * sizeof(float);
 constexpr const char* kFluidName = "SIMULATED_FLUID";
 
@@ -102,6 +106,17 @@ void LiveSimulation::stop() {
     changed_.notify_all();
 }
 
+void LiveSimulation::end(std::uint64_t grace_ns) {
+    stop();
+    std::unique_lock lock(mutex_);
+    if (changed_.wait_for(lock, std::chrono::nanoseconds(grace_ns), [this] { return ended_; })) {
+        lock.unlock();
+        if (thread_.joinable()) {
+            thread_.join();
+        }
+    }
+}
+
 bool LiveSimulation::stopping() const {
     const std::lock_guard lock(mutex_);
     return stop_;
@@ -133,10 +148,25 @@ Result<SimulatedFluid> LiveSimulation::fluid(std::uint64_t value, bool skip_wait
                      "call simulate first, and no more than frames_in_flight values ahead of the frames"};
     }
     if (oneQueue() && !skip_wait) {
-        // Every work of the thread has a bound, and the thread says so when it ends.
-        changed_.wait(lock, [&] { return submitted_ >= value || stop_; });
+        const auto patience = std::chrono::nanoseconds(FrameRing::kPatienceNs);
+        if (!changed_.wait_for(lock, patience, [&] { return submitted_ >= value || stop_; })) {
+            return Error{SLUICE_ERROR_INTERNAL, fmt::format("simulation value {}", value), late(),
+                         held_by_ != 0 ? "check that the host signals the value that it promised for that frame"
+                                       : "simulate fewer particles or less time a value, or wait for it with "
+                                         "simulation_wait before the frame"};
+        }
     }
     return SimulatedFluid{slots_->buffers(value), value, semaphore_, !skip_wait};
+}
+
+std::string LiveSimulation::late() const {
+    const std::uint64_t seconds = FrameRing::kPatienceNs / 1'000'000'000;
+    if (held_by_ != 0) {
+        return fmt::format("not there after {} s: frame {}, which draws from its slot, has not ended", seconds,
+                           held_by_);
+    }
+    return fmt::format("not there after {} s, and the frame must not be submitted before it: one queue has both",
+                       seconds);
 }
 
 void LiveSimulation::drawn(std::uint64_t value, std::uint64_t signal_value) {
@@ -201,6 +231,10 @@ void LiveSimulation::run() {
     for (std::uint64_t value = counter() + 1; value <= asked; ++value) {
         signalFromHere(value);
     }
+    {
+        const std::lock_guard lock(mutex_);
+        ended_ = true;
+    }
     changed_.notify_all();
 }
 
@@ -208,6 +242,9 @@ void LiveSimulation::reach(const Request& request) {
     const std::uint64_t began = monotonicNanoseconds();
     if (const Status moved = advance(request); !moved) {
         fail(request.value, moved.error());
+    }
+    if (stopping()) {
+        return;
     }
     Status status = waitForFrames(request.value);
     if (status && stopping()) {
@@ -234,17 +271,25 @@ Status LiveSimulation::advance(const Request& request) {
             return {};  // the last good state it is, from now on
         }
     }
-    if (request.seconds == 0.0) {
+    owed_ += request.seconds;
+    if (owed_ < kLeastPart * longest_step_) {
         return {};
     }
     std::uint64_t step_began = tracer_.now();
-    solver_->watchSteps([&](const StepReport& /*report*/) {
+    solver_->watchSteps([&](const StepReport& /*report*/, bool kept) {
+        if (stopping()) {
+            return false;
+        }
+        if (!kept) {
+            return true;
+        }
         const std::uint64_t now = tracer_.now();
         tracer_.emit({SLUICE_TRACE_PASS, SLUICE_TRACK_SIMULATION, "step", step_began, now - step_began, request.value,
                       request.value, 0, SLUICE_SIMULATION_TO_RENDERER});
         step_began = now;
+        return true;
     });
-    const Result<AdvanceReport> done = solver_->advance(request.seconds, longest_step_);
+    const Result<AdvanceReport> done = solver_->advance(std::exchange(owed_, 0.0), longest_step_);
     if (!done) {
         return done.error();
     }
@@ -257,11 +302,11 @@ Status LiveSimulation::advance(const Request& request) {
     return {};
 }
 
-Status LiveSimulation::waitForFrames(std::uint64_t value) const {
+Status LiveSimulation::waitForFrames(std::uint64_t value) {
     std::uint64_t reader = 0;
     {
         const std::lock_guard lock(mutex_);
-        reader = readers_[value % readers_.size()];
+        reader = held_by_ = readers_[value % readers_.size()];
     }
     if (reader == 0) {
         return {};
@@ -271,6 +316,10 @@ Status LiveSimulation::waitForFrames(std::uint64_t value) const {
     SluiceResult result = SLUICE_TIMEOUT;
     while (result == SLUICE_TIMEOUT && !stopping()) {
         result = timeline_.wait(reader, kLookNs);
+    }
+    {
+        const std::lock_guard lock(mutex_);
+        held_by_ = 0;
     }
     if (result != SLUICE_OK && result != SLUICE_TIMEOUT) {
         return Error{result, "simulation", fmt::format("the wait for frame {} failed", reader),
@@ -306,8 +355,8 @@ void LiveSimulation::fail(std::uint64_t value, const Error& error) {
     const std::string why = error.message();
     {
         const std::lock_guard lock(mutex_);
-        if (stats_.failed != 0) {
-            return;
+        if (stats_.failed != 0 || stop_) {
+            return;  // told, or nobody is left to be told
         }
         stats_.failed = value;
         const std::size_t length = std::min(why.size(), sizeof(stats_.message) - 1);

@@ -10,6 +10,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -60,7 +61,8 @@ class LiveSimulation {
 
     [[nodiscard]] Status simulate(std::uint64_t value, double seconds);
     /// Refused if `value` was not asked for or its slot may be overwritten. Where the device has one queue this waits
-    /// until the last work of `value` has been submitted: behind a frame that waits for it, it would never run.
+    /// until the last work of `value` has been submitted: behind a frame that waits for it, it would never run. Fails
+    /// after FrameRing::kPatienceNs.
     [[nodiscard]] Result<SimulatedFluid> fluid(std::uint64_t value, bool skip_wait);
     /// A frame that signals `signal_value` of the renderer's timeline draws `value`.
     void drawn(std::uint64_t value, std::uint64_t signal_value);
@@ -69,6 +71,9 @@ class LiveSimulation {
     /// No more values: the thread ends after the step under way, and every value that was asked for is signalled, so
     /// that no frame waits for ever. Does not wait.
     void stop();
+    /// stop(), and waits until the thread has ended, which then calls the host no more. One whose step has not ended
+    /// by then is behind what never ends on its queue.
+    void end(std::uint64_t grace_ns);
 
     // Any thread.
     [[nodiscard]] SluiceResult wait(std::uint64_t value, std::uint64_t timeout_ns) const;
@@ -87,7 +92,8 @@ class LiveSimulation {
     void run();
     void reach(const Request& request);
     [[nodiscard]] Status advance(const Request& request);
-    [[nodiscard]] Status waitForFrames(std::uint64_t value) const;
+    [[nodiscard]] Status waitForFrames(std::uint64_t value);
+    [[nodiscard]] std::string late() const;
     [[nodiscard]] Status publish(std::uint64_t value) const;
     void fail(std::uint64_t value, const Error& error);
     void signalFromHere(std::uint64_t value) const;
@@ -102,11 +108,15 @@ class LiveSimulation {
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<OutputSlots> slots_;
 
+    double owed_ = 0.0;  ///< s, asked for and too little for a step; the thread's
+
     mutable std::mutex mutex_;  ///< guards all below
     mutable std::condition_variable changed_;
     std::deque<Request> requests_;
     std::vector<std::uint64_t> readers_;  ///< by slot: signal value of the last frame that draws from it
     bool stop_ = false;
+    bool ended_ = false;           ///< the thread calls nobody any more
+    std::uint64_t held_by_ = 0;    ///< the frame that the thread waits for, or 0
     std::uint64_t submitted_ = 0;  ///< last value whose last work has been submitted, or that failed for good
     SluiceSimulationStats stats_{};
     std::thread thread_;

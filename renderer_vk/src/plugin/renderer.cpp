@@ -21,6 +21,8 @@ namespace {
 
 /// How long a running frame may wait for a value that the host has promised, once the renderer has to end.
 constexpr std::uint64_t kGraceNs = 500'000'000;
+/// Longer than any step of a simulation that is not behind such frames.
+constexpr std::uint64_t kStepNs = 10'000'000'000;
 
 }  // namespace
 
@@ -150,8 +152,13 @@ Status SluiceRenderer::setEnvironment(const SluiceEnvironment* environment) {
 
 Status SluiceRenderer::setSimulation(const LiveSetup* setup) {
     if (Status status = frames_->waitForAll(); !status) {
+        if (simulation_) {
+            simulation_->stop();  // there is none from now on; those frames wait for it no more
+            ended_ = std::move(simulation_);
+        }
         return status;
     }
+    ended_.reset();
     simulation_.reset();
     if (setup == nullptr) {
         return {};
@@ -288,6 +295,12 @@ void SluiceRenderer::destroy(std::unique_ptr<SluiceRenderer> renderer) {
         return;
     }
     renderer->device_->log(SLUICE_LOG_ERROR, "renderer: submitted frames never end; its device is left behind");
+    if (renderer->simulation_) {
+        renderer->simulation_->end(kStepNs);
+    }
+    if (renderer->ended_) {
+        renderer->ended_->end(kStepNs);
+    }
     renderer->device_->messages->services = nullptr;  // the host may go
     (void)renderer.release();
 }

@@ -63,6 +63,8 @@ struct SluiceRenderer {
     std::vector<std::unique_ptr<sluice::vk::SharedImages>> abandoned_;
     std::shared_ptr<sluice::vk::ParticleSet> particles_;
     std::unique_ptr<sluice::vk::LiveSimulation> simulation_;
+    /// Ended while frames that did not end might read it.
+    std::unique_ptr<sluice::vk::LiveSimulation> ended_;
     std::unique_ptr<sluice::vk::FrameRing> frames_;
     std::optional<sluice::vk::Plan> plan_;  ///< the recorder's
     bool has_environment_ = false;

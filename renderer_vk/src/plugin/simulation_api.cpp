@@ -23,8 +23,9 @@ SluiceResult setSimulation(SluiceRenderer* renderer, const SluiceSimulation* sim
         if (renderer == nullptr) {
             return isNull("renderer");
         }
-        if (simulation == nullptr) {
-            return renderer->setSimulation(nullptr);
+        // First, so that whatever is wrong with the new one leaves none.
+        if (Status ended = renderer->setSimulation(nullptr); !ended || simulation == nullptr) {
+            return ended;
         }
         const Result<LiveSetup> setup = readSimulation(simulation);
         return setup ? renderer->setSimulation(&setup.value()) : Status{setup.error()};

@@ -7,13 +7,10 @@
 #include <span>
 
 #include "sluice/abi_sizes.hpp"
+#include "sluice/simulation_limits.hpp"
 
 namespace sluice::vk {
 namespace {
-
-/// 12 bytes each in the output slots and 30 times that in the solver: more fits no device.
-constexpr std::uint32_t kMostParticles = 1U << 28;
-constexpr std::uint32_t kMostSolids = 1U << 16;
 
 Error invalid(const char* thing, std::string detail) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, thing, std::move(detail), ""};
@@ -54,9 +51,10 @@ Status checkCounts(const SluiceSimulation& s) {
     if (!(s.longest_step > 0.0 && s.longest_step <= 1.0)) {
         return invalid("simulation.longest_step", fmt::format("{} s is outside (0, 1]", s.longest_step));
     }
-    if (s.particle_count == 0 || s.particle_count > kMostParticles || s.position == nullptr) {
-        return invalid("simulation.position", fmt::format("expected 1 to {} particles, found {}{}", kMostParticles,
-                                                          s.particle_count, s.position == nullptr ? " at NULL" : ""));
+    if (s.particle_count == 0 || s.particle_count > kMostSimulatedParticles || s.position == nullptr) {
+        return invalid("simulation.position",
+                       fmt::format("expected 1 to {} particles, found {}{}", kMostSimulatedParticles, s.particle_count,
+                                   s.position == nullptr ? " at NULL" : ""));
     }
     if (s.solid_count > kMostSolids || (s.solid_count > 0 && s.solids == nullptr)) {
         return invalid("simulation.solids", fmt::format("expected at most {}, found {}{}", kMostSolids, s.solid_count,

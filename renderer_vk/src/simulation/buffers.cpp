@@ -79,7 +79,13 @@ SlotSize sizeOf(Slot slot, const SimulationBuffers& b) {
     return {"simulation status", sizeof(StepStatus)};
 }
 
-Status createSlot(const Device& device, SimulationBuffers& buffers, Slot slot) {
+struct MadeSlot {
+    Buffer buffer;
+    TexelView texels;
+};
+
+/// As `buffers` says, which keeps what it has.
+Result<MadeSlot> makeSlot(const Device& device, const SimulationBuffers& buffers, Slot slot) {
     const SlotSize size = sizeOf(slot, buffers);
     const VkDeviceSize texel = size.texels == VK_FORMAT_R32_UINT ? 4 : 16;
     const VkPhysicalDeviceLimits& limits = device.properties.limits;
@@ -103,17 +109,22 @@ Status createSlot(const Device& device, SimulationBuffers& buffers, Slot slot) {
     if (!buffer) {
         return buffer.error();
     }
-    const auto index = static_cast<std::size_t>(slot);
-    buffers.texels.at(index) = {};
-    buffers.slots.at(index) = std::move(buffer).value();
+    MadeSlot made{std::move(buffer).value(), {}};
     if (size.texels != VK_FORMAT_UNDEFINED) {
-        Result<TexelView> view = TexelView::create(device, buffers[slot], size.texels, size.name);
+        Result<TexelView> view = TexelView::create(device, made.buffer, size.texels, size.name);
         if (!view) {
             return view.error();
         }
-        buffers.texels.at(index) = std::move(view).value();
+        made.texels = std::move(view).value();
     }
-    return {};
+    return made;
+}
+
+void put(SimulationBuffers& buffers, Slot slot, MadeSlot made) {
+    const auto index = static_cast<std::size_t>(slot);
+    buffers.texels.at(index) = std::move(made.texels);
+    made.texels = {};  // the view of the buffer that goes now
+    buffers.slots.at(index) = std::move(made.buffer);
 }
 
 }  // namespace
@@ -156,9 +167,11 @@ Result<SimulationBuffers> createBuffers(const Device& device, std::uint32_t part
     buffers.cells = cells;
     buffers.births = kFirstBirths;
     for (std::size_t slot = 0; slot < kSlots; ++slot) {
-        if (const Status status = createSlot(device, buffers, static_cast<Slot>(slot)); !status) {
-            return status.error();
+        Result<MadeSlot> made = makeSlot(device, buffers, static_cast<Slot>(slot));
+        if (!made) {
+            return made.error();
         }
+        put(buffers, static_cast<Slot>(slot), std::move(made).value());
     }
     Result<Buffer> read_back =
         Buffer::create(device, {sizeof(StepStatus) + kPushBytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT,
@@ -172,23 +185,26 @@ Result<SimulationBuffers> createBuffers(const Device& device, std::uint32_t part
 
 Status growLists(const Device& device, SimulationBuffers& buffers, std::uint32_t neighbours) {
     const std::uint32_t before = std::exchange(buffers.neighbours, neighbours);
-    Status status = createSlot(device, buffers, Slot::List);
-    if (!status) {
+    Result<MadeSlot> list = makeSlot(device, buffers, Slot::List);
+    if (!list) {
         buffers.neighbours = before;
+        return list.error();
     }
-    return status;
+    put(buffers, Slot::List, std::move(list).value());
+    return {};
 }
 
 Status growBirths(const Device& device, SimulationBuffers& buffers, std::uint32_t births) {
     const std::uint32_t before = std::exchange(buffers.births, births);
-    Status status = createSlot(device, buffers, Slot::Births);
-    if (status) {
-        status = createSlot(device, buffers, Slot::Blocked);
-    }
-    if (!status) {
+    Result<MadeSlot> born = makeSlot(device, buffers, Slot::Births);
+    Result<MadeSlot> blocked = born ? makeSlot(device, buffers, Slot::Blocked) : Result<MadeSlot>{born.error()};
+    if (!blocked) {
         buffers.births = before;
+        return blocked.error();
     }
-    return status;
+    put(buffers, Slot::Births, std::move(born).value());
+    put(buffers, Slot::Blocked, std::move(blocked).value());
+    return {};
 }
 
 }  // namespace sluice::vk

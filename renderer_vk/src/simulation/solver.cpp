@@ -139,6 +139,9 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
             if (most < longest / 1024.0) {
                 break;
             }
+            if (s.watch && !s.watch(report.value(), false)) {
+                return total;
+            }
             continue;
         }
         s.keep(report.value());
@@ -148,8 +151,8 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
         total.drained += report.value().drained;
         total.shortest = std::min(total.shortest, dt);
         total.speed = std::max(total.speed, s.speed);
-        if (s.watch) {
-            s.watch(report.value());
+        if (s.watch && !s.watch(report.value(), true)) {
+            return total;
         }
         left = dt < left * (1.0 - 1e-9) ? left - dt : 0.0;
         most = seconds;
@@ -165,7 +168,7 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
     return total;
 }
 
-void Solver::watchSteps(std::function<void(const StepReport&)> watch) {
+void Solver::watchSteps(StepWatch watch) {
     state_->watch = std::move(watch);
 }
 

@@ -42,6 +42,9 @@ struct AdvanceReport {
     std::uint64_t born = 0, blocked = 0, drained = 0;  ///< particles
 };
 
+/// `kept`: false for a step that is taken again, shorter. On false advance() ends.
+using StepWatch = std::function<bool(const StepReport&, bool kept)>;
+
 /// The state as it lies on the device, in the solver's own order; `identity` says whose each entry is.
 struct DeviceParticles {
     VkBuffer position = VK_NULL_HANDLE, velocity = VK_NULL_HANDLE;  ///< four floats each, the last is nothing
@@ -71,11 +74,11 @@ class Solver {
     /// One step of that length, whatever the CFL number. On an error the state is that before the step.
     [[nodiscard]] Result<StepReport> step(double seconds);
     /// As many steps as the CFL rule asks for, none longer than `longest`. An error says why it could not be done; the
-    /// state is then that of the last good step.
+    /// state is then that of the last good step. One that its watch ends returns what was done until then.
     [[nodiscard]] Result<AdvanceReport> advance(double seconds, double longest);
 
-    /// Called after each step of advance() that is kept, on its thread.
-    void watchSteps(std::function<void(const StepReport&)> watch);
+    /// Called after each step that advance() has tried, on its thread.
+    void watchSteps(StepWatch watch);
 
     [[nodiscard]] std::uint32_t count() const;
     /// Until the next call that changes the state. Its last writes are those of a compute shader.

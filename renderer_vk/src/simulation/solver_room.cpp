@@ -18,6 +18,13 @@ constexpr std::uint32_t kFirstNeighbours = 64;
 }  // namespace
 
 Status Solver::State::makeRoom(std::uint32_t particles, bool keep_state) {
+    const std::uint32_t most = device.properties.limits.maxComputeWorkGroupCount[0];
+    if (groupsOf(particles, kGroup) > most) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "simulation",
+                     fmt::format("{} particles are {} workgroups, and this device dispatches at most {}", particles,
+                                 groupsOf(particles, kGroup), most),
+                     "simulate fewer particles"};
+    }
     const Grid plan = planGrid(settings, particles);
     if (particles > buffers.particles || plan.cells() > buffers.cells) {
         Result<SimulationBuffers> made =
