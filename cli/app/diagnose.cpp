@@ -81,6 +81,15 @@ int diagnose(const DiagnoseOptions& options) {
         return kExitBadInput;
     }
     const Diagnosis& diagnosis = read.value();
+    if (diagnosis.recording.events.empty()) {
+        // Not clean: nothing was looked at.
+        const bool cut = diagnosis.recording.summary.end == ledger::End::Truncated;
+        logError(
+            {SLUICE_ERROR_INVALID_ARGUMENT, options.log,
+             fmt::format("there is nothing to judge: no event{}", cut ? ", the log was cut off" : " was logged"),
+             cut ? "record it anew; what was flushed or closed survives" : "log signals, waits, reads and writes"});
+        return kExitBadInput;
+    }
     if (const Status status = checkFrames(options, diagnosis); !status) {
         logError(status.error());
         return kExitUsage;

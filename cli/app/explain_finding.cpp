@@ -8,6 +8,7 @@
 #include "app/ledger_commands.hpp"
 #include "app/log.hpp"
 #include "report/table.hpp"
+#include "scene/nearest.hpp"
 #include "sluice/ledger/finding.hpp"
 
 namespace sluice::cli {
@@ -43,7 +44,14 @@ int explainFinding(const ExplainFindingOptions& options) {
     }
     const ledger::FindingInfo* info = ledger::findFindingInfo(options.id);
     if (info == nullptr) {
-        logError({SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("'{}'", options.id), "no kind of finding has that id",
+        std::vector<std::string_view> known;
+        for (std::size_t i = 0; i < ledger::kFindingKindCount; ++i) {
+            known.push_back(ledger::findingInfo(static_cast<ledger::FindingKind>(i)).id);
+        }
+        const std::string_view guess = scene::nearest(options.id, known);
+        logError({SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("'{}'", options.id),
+                  fmt::format("no kind of finding has that id{}",
+                              guess.empty() ? "" : fmt::format("; the nearest is '{}'", guess)),
                   "sluice explain-finding lists them all"});
         return kExitUsage;
     }

@@ -31,7 +31,8 @@ class HelpFormatter : public CLI::Formatter {
         std::string text = "Usage: " + name;
         for (const CLI::Option* option : app->get_options()) {
             if (option->get_positional()) {
-                text += " " + option->get_name(true);
+                const std::string word = option->get_name(true);
+                text += option->get_required() ? " " + word : " [" + word + "]";
             }
         }
         for (const CLI::Option* option : app->get_options()) {

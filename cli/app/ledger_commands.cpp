@@ -41,7 +41,7 @@ void addLedgerCommands(CLI::App& app, LedgerCommands& commands, std::function<in
         "Exit codes of diagnose:\n"
         "  0    clean, or remarks alone\n"
         "  1    findings (or the command line is wrong: then nothing is on stdout)\n"
-        "  2    the log cannot be read\n"
+        "  2    the log cannot be read, or holds no event\n"
         "  4    --trace or --html cannot be written\n");
     c.callback([&] { run = [&o] { return diagnose(o); }; });
 
@@ -49,6 +49,13 @@ void addLedgerCommands(CLI::App& app, LedgerCommands& commands, std::function<in
     CLI::App& x = *app.add_subcommand("explain-finding", "Say what a kind of finding means and what to change");
     x.add_option("ID", e.id, "such as race-read-after-write; without it, the list")->type_name("");
     x.add_flag("--json", e.json, "as JSON on stdout");
+    x.footer(
+        "Examples:\n"
+        "  sluice explain-finding\n"
+        "  sluice explain-finding race-read-after-write\n\n"
+        "Exit codes of explain-finding:\n"
+        "  0    done\n"
+        "  1    no kind of finding has that ID, or the command line is wrong\n");
     x.callback([&] { run = [&e] { return explainFinding(e); }; });
 }
 

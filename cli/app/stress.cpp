@@ -47,7 +47,7 @@ void leaveOutUndrivable(stress::Matrix& matrix, const stress::Options& options) 
 int stress(const stress::Options& options) {
     Result<stress::Matrix> meant = stress::matrixOf(options);
     if (!meant) {
-        fmt::print(stderr, "{}\n", meant.error().message());
+        logError(meant.error());
         return kExitUsage;
     }
     stress::Matrix matrix = std::move(meant).value();

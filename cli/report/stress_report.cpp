@@ -65,12 +65,14 @@ std::string stressText(const std::vector<Row>& rows, std::uint64_t seed) {
     table.front().emplace_back("verdict");
     std::uint64_t handoffs = 0;
     std::uint64_t failures = 0;
+    std::uint64_t ran = 0;
     double seconds = 0.0;
     for (const Row& row : rows) {
-        failures += row.failure ? 1U : 0U;
         if (row.refused_here) {
             continue;  // it has no numbers; stderr says why
         }
+        ++ran;
+        failures += row.failure ? 1U : 0U;
         const Combination& one = row.combination;
         std::vector<std::string> line{std::string(toString(one.pattern)),
                                       std::string(toString(one.backend)),
@@ -92,9 +94,11 @@ std::string stressText(const std::vector<Row>& rows, std::uint64_t seed) {
         handoffs += row.handoffs;
         seconds += row.seconds;
     }
-    return (table.size() > 1 ? formatTable(table, right) : std::string()) +
-           fmt::format("{} hand-offs in {:.1f} s, {} of {} combinations failed; seed {}\n", formatCount(handoffs),
-                       seconds, failures, rows.size(), seed);
+    if (ran == 0 && !rows.empty()) {
+        return fmt::format("no combination ran; seed {}\n", seed);
+    }
+    return formatTable(table, right) + fmt::format("{} hand-offs in {:.1f} s, {} of {} combinations failed; seed {}\n",
+                                                   formatCount(handoffs), seconds, failures, ran, seed);
 }
 
 nlohmann::ordered_json stressJson(const std::vector<Row>& rows, const stress::Matrix& matrix,

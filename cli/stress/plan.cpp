@@ -52,6 +52,22 @@ Shape shapeOf(Pattern pattern, Chance& chance) {
     }
 }
 
+/// What the user asked for, without what is run through whole.
+std::string namedIn(const Options& options) {
+    std::string text;
+    const auto add = [&text](const char* option, const auto& choice) {
+        if (choice) {
+            text += fmt::format("{}{} {}", text.empty() ? "" : " ", option, toString(*choice));
+        }
+    };
+    add("--pattern", options.pattern);
+    add("--backend", options.backend);
+    add("--resource", options.resource);
+    add("--topology", options.topology);
+    add("--fault", options.fault == Fault::None ? std::nullopt : options.fault);
+    return text;
+}
+
 /// The host's own thread has waited for OpenGL before it submits: the order of submission then says as much as the
 /// queue's wait, and to leave that wait out is no fault.
 bool submissionOrders(const Combination& combination) {
@@ -101,12 +117,7 @@ Result<Matrix> matrixOf(const Options& options) {
     }
     if (matrix.runs.empty()) {
         const Skipped& first = matrix.skipped.front();
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT,
-                     fmt::format("--pattern {} --backend {} --resource {} --topology {} --fault {}",
-                                 toString(first.combination.pattern), toString(first.combination.backend),
-                                 toString(first.combination.resource), toString(first.combination.topology),
-                                 toString(first.combination.fault)),
-                     first.why, ""};
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, namedIn(options), first.why, ""};
     }
     return matrix;
 }

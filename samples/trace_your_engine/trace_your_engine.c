@@ -71,7 +71,7 @@ int main(int argc, char** argv) {
     Engine e;
     char why[256];
     uint64_t frame;
-    if (argc < 2 || argc > 3 || (argc == 3 && strcmp(argv[2], "--fixed") != 0)) {
+    if (argc < 2 || argc > 3 || argv[1][0] == '-' || (argc == 3 && strcmp(argv[2], "--fixed") != 0)) {
         fputs("usage: trace_your_engine LOG [--fixed]\n", stderr);
         return 2;
     }

@@ -19,6 +19,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 class Diagnose : public ProgramTest {
@@ -134,6 +135,62 @@ TEST_F(Diagnose, ACutLogIsReadAndSaysSo) {
     EXPECT_THAT(outcome.out, HasSubstr("the log was cut off, not closed"));
 }
 
+TEST_F(Diagnose, ALogWithoutEventsIsTwoAndNotClean) {
+    log("a.log", Seeded::Nothing);
+    write("cut.log", read("a.log").substr(0, 40));
+    ASSERT_TRUE(ledger::LogWriter::create(at("empty.log").string()));
+    for (const auto& [words, why] : {std::pair{"diagnose cut.log --html a.html", "no event, the log was cut off"},
+                                     {"diagnose empty.log --json", "no event was logged"}}) {
+        const Outcome outcome = run(words);
+        EXPECT_EQ(outcome.code, 2) << words;
+        EXPECT_EQ(outcome.out, "") << words;
+        EXPECT_THAT(outcome.err, HasSubstr(std::string("there is nothing to judge: ") + why));
+    }
+    EXPECT_THAT(files(), ElementsAre("a.log", "cut.log", "empty.log"));
+}
+
+TEST_F(Diagnose, ADamagedLogIsTwoWithThePlaceAndJudgesNothing) {
+    log("a.log", Seeded::Nothing);
+    std::string bytes = read("a.log");
+    write("longer.log", bytes + "more");
+    bytes.replace(bytes.size() / 2, 4, "XXXX");
+    write("damaged.log", bytes);
+    for (const char* name : {"damaged.log", "longer.log"}) {
+        const Outcome outcome = run(std::string("diagnose --html a.html ") + name);
+        EXPECT_EQ(outcome.code, 2) << name;
+        EXPECT_EQ(outcome.out, "") << name;
+        EXPECT_THAT(outcome.err, HasSubstr(std::string("sluice: error: ") + name + ": at byte "));
+    }
+    EXPECT_THAT(files(), ElementsAre("a.log", "damaged.log", "longer.log"));
+}
+
+TEST_F(Diagnose, AWaitAtTheCutIsSaidToBePerhapsNothing) {
+    {
+        auto created = ledger::LogWriter::create(at("a.log").string());
+        ASSERT_TRUE(created);
+        created.value()->declareActor(0, ledger::ActorKind::GlContext, "gl");
+        created.value()->declareActor(1, ledger::ActorKind::VulkanQueue, "the queue");
+        created.value()->declareSync(0, ledger::SyncKind::Timeline, "drawn", 0, 0);
+        ledger::Event event;
+        event.actor = 0;
+        event.object = 0;
+        event.frame = 1;
+        event.value = 1;
+        event.kind = ledger::EventKind::Signal;
+        created.value()->record(event);
+        event.kind = ledger::EventKind::Wait;
+        event.actor = 1;
+        event.value = 2;
+        created.value()->record(event);
+    }
+    const std::string bytes = read("a.log");
+    write("cut.log", bytes.substr(0, bytes.size() - 16));
+    const Outcome outcome = run("diagnose cut.log");
+    EXPECT_EQ(outcome.code, 1) << outcome.out;
+    EXPECT_THAT(outcome.out, HasSubstr("remedy  The log was cut here, so nothing need be wrong: "));
+    EXPECT_THAT(run("diagnose a.log").out, Not(HasSubstr("The log was cut here")));
+}
+
 TEST_F(Diagnose, JsonHoldsFindingsAndReport) {
     log("race.log", Seeded::MissingWait);
     const Outcome outcome = run("diagnose race.log --json");
@@ -243,6 +300,11 @@ TEST_F(Diagnose, ExplainFindingKnowsEveryKind) {
     const Outcome unknown = run("explain-finding race");
     EXPECT_EQ(unknown.code, 1);
     EXPECT_THAT(unknown.err, HasSubstr("'race': no kind of finding has that id"));
+    EXPECT_THAT(run("explain-finding stale-raed").err, HasSubstr("has that id; the nearest is 'stale-read'"));
+    const std::string help = run("explain-finding --help").out;
+    EXPECT_THAT(help, HasSubstr("Usage: sluice explain-finding [ID] [OPTIONS]\n"));
+    EXPECT_THAT(help, HasSubstr("Exit codes of explain-finding:\n  0 "));
+    EXPECT_THAT(help, Not(HasSubstr("particles")));
 }
 
 /// The program of samples/trace_your_engine, which is C and knows nothing of Sluice but its header.
@@ -252,6 +314,8 @@ TEST_F(Diagnose, TheSampleEngineIsToldItsMissingWait) {
     };
     ASSERT_EQ(sample("broken.log"), 0);
     ASSERT_EQ(sample("fixed.log --fixed"), 0);
+    EXPECT_NE(sample("--fixed 2>/dev/null"), 0) << "a log of that name was not meant";
+    EXPECT_FALSE(exists("--fixed"));
     const Outcome broken = run("diagnose broken.log --json");
     EXPECT_EQ(broken.code, 1);
     std::set<std::string> ids;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
+#include <zlib.h>
 
 #include <csignal>
 #include <cstdlib>
@@ -58,11 +59,20 @@ Bytes written(const std::function<void(ledger::LogWriter&)>& fill) {
 }
 
 void appendChunk(Bytes& bytes, std::uint32_t type, std::uint32_t size, const Bytes& body) {
-    for (const std::uint32_t number : {type, size}) {
+    const auto put = [&bytes](std::uint32_t number) {
         std::array<std::byte, 4> raw{};
         std::memcpy(raw.data(), &number, raw.size());
         bytes.insert(bytes.end(), raw.begin(), raw.end());
-    }
+    };
+    const auto sum = [](std::span<const std::byte> of) {
+        return static_cast<std::uint32_t>(
+            ::crc32(0, reinterpret_cast<const Bytef*>(of.data()), static_cast<uInt>(of.size())));
+    };
+    const std::size_t head = bytes.size();
+    put(type);
+    put(size);
+    put(body.empty() ? 0 : sum(body));
+    put(sum(std::span(bytes).subspan(head)));
     bytes.insert(bytes.end(), body.begin(), body.end());
 }
 

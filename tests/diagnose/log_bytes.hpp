@@ -46,7 +46,7 @@ class FullDisk {
 
 /// What a writer that `fill` was given leaves in its file.
 [[nodiscard]] Bytes written(const std::function<void(ledger::LogWriter&)>& fill);
-/// A chunk by hand: type, size as told, body.
+/// A chunk by hand: type, size as told, body; its checksums are zlib's.
 void appendChunk(Bytes& bytes, std::uint32_t type, std::uint32_t size, const Bytes& body);
 [[nodiscard]] ledger::Event event(ledger::EventKind kind, ledger::ActorId actor, ledger::ObjectId object,
                                   std::uint64_t value, std::uint64_t time_ns = 0, std::uint64_t duration_ns = 0);

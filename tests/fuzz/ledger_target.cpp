@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Any bytes as a ledger log: read, judged, scheduled, reported, as `sluice diagnose` does.
+#include <zlib.h>
+
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <vector>
 
 #include "sluice/ledger/ledger.hpp"
 #include "sluice/ledger/report.hpp"
@@ -35,9 +39,32 @@ void checkReport(const ledger::Recording& recording) {
     }
 }
 
-}  // namespace
+/// With the checksums that the bytes should have, so that what comes behind those checks is reached as well.
+std::vector<std::byte> mended(std::span<const std::byte> bytes) {
+    constexpr std::size_t kHeader = 16, kHead = 16, kSize = 4, kBodySum = 8, kHeadSum = 12;
+    std::vector<std::byte> whole(bytes.begin(), bytes.end());
+    const std::span<std::byte> log(whole);
+    const auto sum = [](std::span<const std::byte> of) {
+        return of.empty() ? 0U
+                          : static_cast<std::uint32_t>(
+                                ::crc32(0, reinterpret_cast<const Bytef*>(of.data()), static_cast<uInt>(of.size())));
+    };
+    for (std::size_t at = kHeader; at < log.size() && log.size() - at >= kHead;) {
+        const std::span<std::byte> rest = log.subspan(at);
+        std::uint32_t size = 0;
+        std::memcpy(&size, rest.data() + kSize, sizeof(size));
+        if (size <= rest.size() - kHead) {
+            const std::uint32_t body = sum(rest.subspan(kHead, size));
+            std::memcpy(rest.data() + kBodySum, &body, sizeof(body));
+        }
+        const std::uint32_t head = sum(rest.first(kHeadSum));
+        std::memcpy(rest.data() + kHeadSum, &head, sizeof(head));
+        at += kHead + size;
+    }
+    return whole;
+}
 
-void ledger_log(std::span<const std::byte> bytes) {
+void judgeLog(std::span<const std::byte> bytes) {
     ledger::Ledger judge;
     ledger::Recorder recorder;
     std::uint64_t events = 0;
@@ -78,6 +105,13 @@ void ledger_log(std::span<const std::byte> bytes) {
         require(!finding.sentence.empty() && !finding.remedy.empty(), "a finding says what is wrong and what helps");
     }
     checkReport(recorder.take({}));
+}
+
+}  // namespace
+
+void ledger_log(std::span<const std::byte> bytes) {
+    judgeLog(bytes);
+    judgeLog(mended(bytes));
 }
 
 }  // namespace sluice::fuzz

@@ -16,8 +16,10 @@ namespace sluice::ledger {
 static_assert(std::endian::native == std::endian::little, "events go to the file as they lie in memory");
 
 constexpr std::array<char, 8> kLogMagic{'S', 'L', 'U', 'I', 'C', 'E', 'L', 'G'};
-constexpr std::uint32_t kLogVersion = 1;
-constexpr std::size_t kLogHeaderBytes = 16, kChunkHeaderBytes = 8;
+constexpr std::uint32_t kLogVersion = 2;
+constexpr std::size_t kLogHeaderBytes = 16, kChunkHeaderBytes = 16;
+/// In a chunk's head: where its size, the checksum of its contents and that of the head itself stand.
+constexpr std::size_t kChunkSizeAt = 4, kBodySumAt = 8, kHeadSumAt = 12;
 
 enum class ChunkType : std::uint32_t { Events = 1, Actor, Sync, Resource, Memory, Close };
 
@@ -25,6 +27,8 @@ enum class ChunkType : std::uint32_t { Events = 1, Actor, Sync, Resource, Memory
 constexpr std::size_t kActorBytes = 4, kSyncBytes = 16, kResourceBytes = 12, kMemoryBytes = 52;
 /// The writer cuts longer names; the reader takes a longer one for damage.
 constexpr std::size_t kMaxNameBytes = 1024;
+/// A cut chunk has no checksum to hold it to, so those of events end after a few.
+constexpr std::size_t kMostEventBytes = 256 * sizeof(Event);
 /// Far above what the writer makes (64 KiB). A larger size in a file is damage, not data.
 constexpr std::uint32_t kMaxChunkBytes = 16U << 20U;
 /// Bounds of ids in a file. A clock has an entry per actor, so their number decides what memory a log can ask for.

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <vector>
 
+#include "ledger/checksum.hpp"
 #include "ledger/log_bounds.hpp"
 #include "ledger/log_bytes.hpp"
 #include "sluice/fd.hpp"
@@ -74,6 +75,12 @@ class Reader {
         offset_ += *got;
         return *got;
     }
+    /// The same for the contents of a chunk, whose checksum it keeps.
+    std::size_t fillBody(std::span<std::byte> out) {
+        const std::size_t got = fill(out);
+        body_sum_ = crc32(out.first(got), body_sum_);
+        return got;
+    }
     void checkHeader() {
         if (!std::equal(kLogMagic.begin(), kLogMagic.end(), reinterpret_cast<const char*>(buffer_.data()))) {
             return fail(0, "expected \"SLUICELG\", found something else", kNotALog);
@@ -81,7 +88,8 @@ class Reader {
         const auto version = readNumber<std::uint32_t>(buffer_.data() + 8);
         if (version != kLogVersion) {
             return fail(8, fmt::format("expected version {} of the format, found {}", kLogVersion, version),
-                        "use the sluice that belongs to the program that wrote it");
+                        version < kLogVersion ? "record it anew: what an older Sluice wrote has no checksums"
+                                              : "use the sluice that belongs to the program that wrote it");
         }
         const auto size = readNumber<std::uint32_t>(buffer_.data() + 12);
         if (size != sizeof(Event)) {
@@ -93,19 +101,40 @@ class Reader {
         const std::uint64_t start = offset_;
         std::array<std::byte, kChunkHeaderBytes> head{};
         const std::size_t got = fill(head);
+        if (summary_.end == End::Closed && got > 0) {
+            fail(start, "expected the end of the file after the close, found more");
+            return false;
+        }
         if (got < head.size()) {
             return false;
         }
+        const std::span<const std::byte> summed = std::span(head).first(kHeadSumAt);
+        if (!sumFits(start, "the head of a chunk", readNumber<std::uint32_t>(head.data() + kHeadSumAt),
+                     crc32(summed))) {
+            return false;
+        }
         const auto type = readNumber<std::uint32_t>(head.data());
-        const auto size = readNumber<std::uint32_t>(head.data() + 4);
-        if (summary_.end == End::Closed) {
-            fail(start, "expected the end of the file after the close, found another chunk");
-            return false;
-        }
+        const auto size = readNumber<std::uint32_t>(head.data() + kChunkSizeAt);
         if (size > kMaxChunkBytes) {
-            fail(start + 4, fmt::format("expected a chunk of at most {} bytes, found {}", kMaxChunkBytes, size));
+            fail(start + kChunkSizeAt,
+                 fmt::format("expected a chunk of at most {} bytes, found {}", kMaxChunkBytes, size));
             return false;
         }
+        body_sum_ = 0;
+        const std::uint32_t wanted = readNumber<std::uint32_t>(head.data() + kBodySumAt);
+        if (readBody(type, start, size)) {
+            return sumFits(start + kChunkHeaderBytes, "the contents of a chunk", wanted, body_sum_);
+        }
+        return false;
+    }
+    bool sumFits(std::uint64_t offset, const char* what, std::uint32_t wanted, std::uint32_t found) {
+        if (wanted != found) {
+            fail(offset, fmt::format("expected {} with checksum {:08x}, found {:08x}", what, wanted, found));
+        }
+        return wanted == found;
+    }
+    /// False when the log ends in it.
+    bool readBody(std::uint32_t type, std::uint64_t start, std::uint32_t size) {
         switch (static_cast<ChunkType>(type)) {
             case ChunkType::Events:
                 return events(start, size);
@@ -129,17 +158,17 @@ class Reader {
     bool whole(std::uint64_t start, std::uint32_t size, std::size_t fixed, bool named) {
         const std::size_t most = fixed + (named ? kMaxNameBytes : 0);
         if (size < fixed || size > most) {
-            fail(start + 4, fmt::format("expected a chunk of {} to {} bytes, found {}", fixed, most, size));
+            fail(start + kChunkSizeAt, fmt::format("expected a chunk of {} to {} bytes, found {}", fixed, most, size));
             return false;
         }
         buffer_.resize(size);
-        return fill(buffer_) == size && !failure_;
+        return fillBody(buffer_) == size && !failure_;
     }
     bool skip(std::uint32_t size) {
         buffer_.resize(std::min<std::size_t>(size, 4096));
         while (size > 0) {
             const std::size_t want = std::min<std::size_t>(size, buffer_.size());
-            if (fill(std::span(buffer_).first(want)) != want) {
+            if (fillBody(std::span(buffer_).first(want)) != want) {
                 return false;
             }
             size -= static_cast<std::uint32_t>(want);
@@ -203,7 +232,8 @@ class Reader {
     }
     bool events(std::uint64_t start, std::uint32_t size) {
         if (size % sizeof(Event) != 0) {
-            fail(start + 4, fmt::format("expected a multiple of {} bytes of events, found {}", sizeof(Event), size));
+            fail(start + kChunkSizeAt,
+                 fmt::format("expected a multiple of {} bytes of events, found {}", sizeof(Event), size));
             return false;
         }
         constexpr std::size_t kAtOnce = 256 * sizeof(Event);
@@ -211,7 +241,7 @@ class Reader {
         while (size > 0) {
             const std::size_t want = std::min<std::size_t>(size, buffer_.size());
             const std::uint64_t offset = offset_;
-            const std::size_t got = fill(std::span(buffer_).first(want));
+            const std::size_t got = fillBody(std::span(buffer_).first(want));
             for (std::size_t at = 0; at + sizeof(Event) <= got; at += sizeof(Event)) {
                 if (!event(offset + at, buffer_.data() + at)) {
                     return false;
@@ -246,6 +276,7 @@ class Reader {
     const LogSink& sink_;
     Source source_;
     std::uint64_t offset_ = 0;
+    std::uint32_t body_sum_ = 0;  ///< of the present chunk's contents, as far as they were read
     std::vector<std::byte> buffer_;
     LogSummary summary_;
     std::optional<Error> failure_;

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cerrno>
 #include <mutex>
+#include <optional>
+#include <span>
 #include <system_error>
 #include <vector>
 
+#include "ledger/checksum.hpp"
 #include "ledger/log_bytes.hpp"
 #include "sluice/fd.hpp"
 #include "sluice/ledger/log.hpp"
@@ -42,13 +45,31 @@ struct LogWriter::State {
     mutable std::mutex mutex;
     std::string path;
     UniqueFd file;
-    std::vector<std::byte> buffer;  ///< reserved once: record() allocates nothing
-    std::size_t open_chunk = 0;     ///< where the size of the events chunk at the buffer's end stands; 0: none is open
+    std::vector<std::byte> buffer;    ///< reserved once: record() allocates nothing
+    std::optional<std::size_t> last;  ///< where the chunk at the buffer's end begins: its sizes and sums are missing
+    bool takes_events = false;        ///< and that is one of events
     std::uint64_t sequence = 0;
     std::uint64_t dropped = 0;
     int failed = 0;  ///< errno of the write that failed
 
+    /// Fills in the head of the last chunk.
+    void seal() {
+        if (!last) {
+            return;
+        }
+        const std::span<std::byte> chunk = std::span(buffer).subspan(*last);
+        const std::span<const std::byte> body = chunk.subspan(kChunkHeaderBytes);
+        const auto fill = [&chunk](std::size_t at, std::uint32_t number) {
+            std::memcpy(chunk.subspan(at).data(), &number, sizeof(number));
+        };
+        fill(kChunkSizeAt, static_cast<std::uint32_t>(body.size()));
+        fill(kBodySumAt, crc32(body));
+        fill(kHeadSumAt, crc32(chunk.first(kHeadSumAt)));
+        last.reset();
+        takes_events = false;
+    }
     void writeOut() {
+        seal();
         const std::byte* at = buffer.data();
         std::size_t left = failed == 0 ? buffer.size() : 0;
         while (left > 0) {
@@ -64,7 +85,6 @@ struct LogWriter::State {
             left -= static_cast<std::size_t>(written);
         }
         buffer.clear();
-        open_chunk = 0;
     }
     /// Makes room; false when the log is closed, and false, and counted, when it has failed before.
     bool room(std::size_t bytes) {
@@ -86,7 +106,7 @@ struct LogWriter::State {
         writeOut();
         // Not after a failure: the last chunk may be cut, and the log did not end as it was meant to.
         if (failed == 0) {
-            chunk(ChunkType::Close, 0);
+            chunk(ChunkType::Close);
             writeOut();
         }
         // Some file systems tell only here that there was no room.
@@ -110,16 +130,18 @@ struct LogWriter::State {
     void put(T value) {
         append(&value, sizeof(value));
     }
-    void chunk(ChunkType type, std::size_t bytes) {
-        open_chunk = 0;
+    void chunk(ChunkType type) {
+        seal();
+        last = buffer.size();
+        takes_events = type == ChunkType::Events;
         put(static_cast<std::uint32_t>(type));
-        put(static_cast<std::uint32_t>(bytes));
+        buffer.resize(*last + kChunkHeaderBytes);
     }
     /// The same for a chunk that has its own head and `bytes` at once; false as room() is.
     bool begin(ChunkType type, std::size_t bytes) {
         const bool fits = room(kChunkHeaderBytes + bytes);
         if (fits) {
-            chunk(type, bytes);
+            chunk(type);
         }
         return fits;
     }
@@ -212,14 +234,11 @@ void LogWriter::record(Event event) {
     if (!state_->room(kChunkHeaderBytes + sizeof(Event))) {
         return;
     }
-    if (state_->open_chunk == 0) {
-        state_->chunk(ChunkType::Events, 0);
-        state_->open_chunk = state_->buffer.size() - sizeof(std::uint32_t);
+    if (!state_->takes_events || state_->buffer.size() - *state_->last >= kChunkHeaderBytes + kMostEventBytes) {
+        state_->chunk(ChunkType::Events);
     }
     event.sequence = state_->sequence++;
     state_->put(event);
-    const auto bytes = static_cast<std::uint32_t>(state_->buffer.size() - state_->open_chunk - sizeof(std::uint32_t));
-    std::memcpy(state_->buffer.data() + state_->open_chunk, &bytes, sizeof(bytes));
 }
 
 void LogWriter::flush() {

@@ -179,7 +179,10 @@ void Ledger::State::judgeWaits(End end) {
                         : fmt::format("{} waits for {} in frame {}, and nobody is left to signal it.", who.name, wanted,
                                       event.frame);
             found->remedy =
-                open ? fmt::format("Submit the signal of {}, if there is one.", wanted)
+                open ? fmt::format(
+                           "The log was cut here, so nothing need be wrong: record on until it is closed. If the "
+                           "wait is there again, submit the signal of {}.",
+                           wanted)
                      : fmt::format("Signal {} once for this wait, or drop the wait of {}.", wanted, who.name);
         }
     }

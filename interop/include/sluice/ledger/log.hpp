@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // The compact append-only log: a header, then chunks; a crash leaves a readable prefix. All numbers little-endian.
-//   header  16 bytes: "SLUICELG", uint32 version (1), uint32 size of an event (48)
-//   chunk    8 bytes: uint32 type, uint32 bytes that follow;  then
+//   header  16 bytes: "SLUICELG", uint32 version (2), uint32 size of an event (48)
+//   chunk   16 bytes: uint32 type, uint32 bytes that follow, uint32 CRC-32 of those, uint32 CRC-32 of the 12 bytes
+//                     before it (that of zlib; version 1 had neither and is not read);  then
 //     1 events    n * 48 bytes of Event
 //     2 actor     ActorId, uint8 ActorKind, uint8 0, name
 //     3 sync      ObjectId, uint8 SyncKind, uint8 0, uint16 flags, uint64 initial, name
@@ -71,9 +72,10 @@ struct LogSummary {
     std::uint64_t first_ns = 0, last_ns = 0;
 };
 /// Reads a whole log into `sink`. Errors (SLUICE_ERROR_INVALID_ARGUMENT: not a log, another version, a chunk of an
-/// absurd size, an unknown kind, an id out of bounds, anything after the close) name the file, the offset, the expected
-/// and the found. A log that ends in the middle of a chunk is read up to there and is Truncated. Events get their place
-/// in the log as their sequence, whatever the file says. Bounds: actor ids below 1,024 (a clock has an entry per
+/// absurd size, a checksum that does not fit, an unknown kind, an id out of bounds, anything after the close) name the
+/// file, the offset, the expected and the found; the sink may have had what stands before, and events of the damaged
+/// chunk. A log that ends in the middle of a chunk is read up to there, without that chunk's checksum, and is
+/// Truncated. Events get their place in the log as their sequence, whatever the file says. Bounds: actor ids below 1,024 (a clock has an entry per
 /// actor), sync and resource ids below 2^24, names of at most 1,024 bytes, whose
 /// control characters become '?'.
 [[nodiscard]] Result<LogSummary> readLog(const std::string& path, const LogSink& sink);
