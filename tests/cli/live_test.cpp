@@ -77,6 +77,7 @@ TEST_F(Live, AFluidThatIsTooFastStandsStillAndALostRendererBeginsAgain) {
     const Outcome lost = run("render s.json -o l_##.png --fault device-lost@2");
     EXPECT_EQ(lost.code, 3);
     EXPECT_THAT(lost.err, HasSubstr("from value 3 on it begins again"));
+    EXPECT_THAT(lost.out, HasSubstr("simulated 4 frames")) << "numbered as the caller has them";
     (void)run("render s.json -o one_##.png --frames 1..1");
     EXPECT_TRUE(read("l_03.png") == read("one_01.png"));
 }

@@ -210,6 +210,25 @@ TEST_F(RecoveryTest, APartThatANewRendererRefusesIsDroppedAndTheRestGoesOn) {
     EXPECT_EQ(host_->renderers(), 3U);
 }
 
+TEST_F(RecoveryTest, ASimulationThatANewRendererRefusesIsDroppedAndTheRestGoesOn) {
+    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
+    control_->lose_submit = 1;
+    EXPECT_EQ(run(1), "-");
+    control_->lose_submit = 0;
+    const std::vector<float> position(3, 0.25F);
+    auto simulation = sized<SluiceSimulation>();
+    simulation.particle_count = UINT32_MAX;  // none of which is read
+    simulation.position = position.data();
+    EXPECT_EQ(host_->setSimulation(&simulation).error().code, SLUICE_ERROR_INVALID_ARGUMENT);
+    simulation.particle_count = 1;
+    ASSERT_TRUE(host_->setSimulation(&simulation));  // 0 iterations: only a renderer knows that this is wrong
+    ASSERT_TRUE(host_->simulate(1, 0.0));
+    EXPECT_EQ(run(2), "ff");
+    EXPECT_TRUE(host_->simulate(2, 0.0)) << "nothing flows, as the log has said";
+    EXPECT_EQ(run(1), "f");
+    complaints_.clear();
+}
+
 TEST_F(RecoveryTest, AFaultOfTheOrderCostsTwoFramesAndNotAllLater) {
     FluidHostConfig wanted = recovering(SLUICE_TIMELINE_FINISH);
     wanted.fault = FaultPlan{FaultKind::WrongValue, 3};

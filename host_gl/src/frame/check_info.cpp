@@ -9,6 +9,7 @@
 
 #include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
+#include "sluice/simulation_limits.hpp"
 
 namespace sluice::host {
 
@@ -89,6 +90,12 @@ Status checkPart(const SluiceSimulation* simulation) {
     const SluiceSimulation known = readAbiStruct(*simulation);
     if (known.particle_count == 0 || known.position == nullptr || (known.solid_count > 0 && known.solids == nullptr)) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation", "its particles or its solids are not there", ""};
+    }
+    if (known.particle_count > kMostSimulatedParticles || known.solid_count > kMostSolids) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation",
+                     fmt::format("expected at most {} particles and {} solids, found {} and {}",
+                                 kMostSimulatedParticles, kMostSolids, known.particle_count, known.solid_count),
+                     "simulate fewer"};
     }
     return {};
 }

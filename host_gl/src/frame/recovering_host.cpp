@@ -64,8 +64,17 @@ Status RecoveringHost::beginWithScene() {
             return status;
         }
     }
-    const auto simulation = scene_.simulation();
-    return simulation ? simulateAgain(*simulation) : Status{};
+    if (const auto simulation = scene_.simulation()) {
+        Status status = simulateAgain(*simulation);
+        if (refused(status)) {
+            scene_.keep(static_cast<const SluiceSimulation*>(nullptr));
+            simulation_dropped_ = true;
+            drop("simulation", status.error());
+        } else if (!status) {
+            return status;
+        }
+    }
+    return {};
 }
 
 void RecoveringHost::drop(const char* part, const Error& refusal) {

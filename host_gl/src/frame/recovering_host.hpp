@@ -125,7 +125,8 @@ class RecoveringHost final : public FluidHost {
     void drop(const char* part, const Error& refusal);
     /// The simulation once more, from its initial state, which stands for the value asked for last.
     [[nodiscard]] Status simulateAgain(const SluiceSimulation& simulation);
-    /// What the present renderer calls `value`; of what went with an earlier one, its initial state.
+    /// What the present renderer calls `value`; of what went with an earlier one, its initial state; 0 of one that it
+    /// has refused.
     [[nodiscard]] std::uint64_t simulatedHere(std::uint64_t value) const;
     [[nodiscard]] Status replaceImages(std::uint32_t width, std::uint32_t height);
     template <typename Call, typename Value>
@@ -156,6 +157,7 @@ class RecoveringHost final : public FluidHost {
     std::uint64_t base_ = 0;             ///< numbers that earlier renderers have spent
     std::uint64_t asked_ = 0;            ///< last value of simulate
     std::uint64_t simulation_base_ = 0;  ///< values that went with earlier renderers
+    bool simulation_dropped_ = false;    ///< a new renderer has refused it: frames are drawn without
     std::uint64_t submitted_ = 0;
     std::uint32_t renderers_ = 0;
     std::uint64_t without_fluid_ = 0;  ///< submits since the last composite

@@ -9,8 +9,12 @@ namespace sluice::host {
 Status RecoveringHost::setSimulation(const SluiceSimulation* simulation) {
     return caught([&] {
         Status status = give([&] { return life_->setSimulation(simulation); }, simulation);
+        if (refused(status)) {
+            scene_.keep(static_cast<const SluiceSimulation*>(nullptr));  // on failure there is none
+        }
         asked_ = 0;
         simulation_base_ = 0;
+        simulation_dropped_ = false;
         return status;
     });
 }
@@ -22,8 +26,8 @@ Status RecoveringHost::simulate(std::uint64_t value, double seconds) {
                          fmt::format("value {} came after {}, {} was expected", value, asked_, asked_ + 1),
                          "number values from 1 without gaps"};
         }
-        if (recovery_.down()) {
-            asked_ = value;  // nothing flows without a renderer
+        if (recovery_.down() || simulation_dropped_) {
+            asked_ = value;  // nothing flows without a renderer, or in one that has refused it
             return {};
         }
         Status status = judged(life_->simulate(simulatedHere(value), seconds));
@@ -54,6 +58,9 @@ Result<SluiceSimulationStats> RecoveringHost::simulationStats() {
             return stats.error();
         }
         found = stats.value();
+        found.asked += simulation_base_;
+        found.reached += simulation_base_;
+        found.failed += found.failed != 0 ? simulation_base_ : 0;
         return {};
     });
     if (!status) {
@@ -73,7 +80,7 @@ Status RecoveringHost::simulateAgain(const SluiceSimulation& simulation) {
 }
 
 std::uint64_t RecoveringHost::simulatedHere(std::uint64_t value) const {
-    if (value == 0) {
+    if (value == 0 || simulation_dropped_) {
         return 0;
     }
     return value > simulation_base_ ? value - simulation_base_ : 1;

@@ -8,6 +8,7 @@
 #include <thread>
 #include <utility>
 
+#include "frame/check_info.hpp"
 #include "isolate/proxy_parts.hpp"
 #include "sluice/abi_boundary.hpp"
 #include "sluice/isolate/sealed_memory.hpp"
@@ -20,6 +21,12 @@ namespace {
 // Short against a frame, long against a message and its answer.
 constexpr std::chrono::microseconds kAskAgain{500};
 
+Status endSimulation(RendererProcess& process) {
+    isolate::SetSimulation call;
+    call.simulation = sized<SluiceSimulation>();
+    return simply(process, call, "set_simulation", {});
+}
+
 SluiceResult setSimulation(SluiceRenderer* renderer, const SluiceSimulation* simulation, SluiceError* error) {
     return guarded(error, [&]() -> Status {
         if (renderer == nullptr) {
@@ -27,17 +34,14 @@ SluiceResult setSimulation(SluiceRenderer* renderer, const SluiceSimulation* sim
         }
         RendererProcess& process = *of(renderer)->process;
         if (simulation == nullptr) {
-            isolate::SetSimulation call;
-            call.simulation = sized<SluiceSimulation>();
-            return simply(process, call, "set_simulation", {});
+            return endSimulation(process);
         }
-        if (Status status = checkAbiStruct(simulation, "simulation"); !status) {
+        // What is wrong with it is found before its arrays are read, and leaves none over there either.
+        if (Status status = checkPart(simulation); !status) {
+            (void)endSimulation(process);
             return status;
         }
         const SluiceSimulation given = readAbiStruct(*simulation);
-        if (given.position == nullptr || (given.solids == nullptr && given.solid_count > 0)) {
-            return isNull("simulation.position or simulation.solids");
-        }
         isolate::SetSimulation call;
         call.simulation = given;
         call.simulation.solids = nullptr;
@@ -49,6 +53,7 @@ SluiceResult setSimulation(SluiceRenderer* renderer, const SluiceSimulation* sim
                                  std::as_bytes(std::span(given.position, floats)),
                                  std::as_bytes(std::span(given.velocity, given.velocity != nullptr ? floats : 0))});
         if (!copy) {
+            (void)endSimulation(process);
             return copy.error();
         }
         const int fd = copy.value().get();

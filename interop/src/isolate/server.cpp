@@ -278,6 +278,7 @@ Message Server::handle(const SetSimulation& call, UniqueFd& /*with*/) {
     const std::size_t arrays = call.has_velocity != 0 ? 2 : 1;
     const Result<Mapping> mapped = mapSealed(fds_.front(), solids + arrays * floats * sizeof(float));
     if (!mapped) {
+        (void)api_.set_simulation(renderer_, nullptr, nullptr);  // on failure there is none
         writeAbiError(&error, mapped.error());
         return said(mapped.error().code, error);
     }

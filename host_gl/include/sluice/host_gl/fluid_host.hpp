@@ -91,7 +91,7 @@ class FluidHost {
     [[nodiscard]] virtual Status simulate(std::uint64_t value, double seconds) = 0;
     /// Until the simulation has reached `value`; SLUICE_TIMEOUT.
     [[nodiscard]] virtual Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) = 0;
-    /// Values are those of the present renderer.
+    /// Steps and times are those of the present renderer, values the caller's.
     [[nodiscard]] virtual Result<SluiceSimulationStats> simulationStats() = 0;
 
     /// Copies colour and depth of the screen into the next image set on the GPU, signals, and submits frame k.
