@@ -27,14 +27,6 @@ std::array<double, 3> sum(const std::vector<float>& triples) {
     return total;
 }
 
-double squares(const std::vector<float>& values) {
-    double total = 0.0;
-    for (const float value : values) {
-        total += double{value} * double{value};
-    }
-    return total;
-}
-
 TEST_F(SimulationPhysics, MomentumWithoutGravityIsKeptToRoundOff) {
     SimulationSettings settings;
     settings.gravity = {0, 0, 0};
@@ -74,19 +66,12 @@ TEST_F(SimulationPhysics, AColumnOfWaterSettlesWithoutGrowingAndHoldsItsDensity)
     settings.high = {0.32F, 1.2F, 0.32F};
     const std::vector<float> positions = lattice({0, 0, 0}, 8, 20, 8, 0.04F, 0.0F, 1);
     const auto solver = make(settings, positions);
-    const auto energy = [&](const ParticleState& state) {
-        double potential = 0.0;
-        for (std::size_t i = 1; i < state.position.size(); i += 3) {
-            potential += 9.81 * double{state.position[i]};
-        }
-        return potential + 0.5 * squares(state.velocity);
-    };
-    const double at_first = energy(solver->read().value());
+    const double at_first = energyOf(solver->read().value());
     double highest = 0.0;
     for (int i = 0; i < 10; ++i) {
         const auto report = solver->advance(0.1, 1.0 / 120.0);
         ASSERT_TRUE(report.ok()) << report.error().message();
-        highest = std::max(highest, energy(solver->read().value()));
+        highest = std::max(highest, energyOf(solver->read().value()));
     }
     EXPECT_LT(highest, at_first) << "from rest a fluid has nothing to gain energy from";
     const auto state = solver->read();
@@ -108,60 +93,6 @@ TEST_F(SimulationPhysics, AColumnOfWaterSettlesWithoutGrowingAndHoldsItsDensity)
     for (std::size_t i = 0; i < positions.size(); ++i) {
         ASSERT_GE(state.value().position[i], settings.low[i % 3] + settings.radius * 0.9999F);
         ASSERT_LE(state.value().position[i], settings.high[i % 3] - settings.radius * 0.9999F);
-    }
-}
-
-/// Greatest potential and kinetic energy of a column of 40 layers within half a second, of that at first.
-double rise(Solver& solver, double longest) {
-    const auto energy = [&solver] {
-        const ParticleState state = solver.read().value();
-        double potential = 0.0;
-        for (std::size_t i = 1; i < state.position.size(); i += 3) {
-            potential += 9.81 * double{state.position[i]};
-        }
-        return potential + 0.5 * squares(state.velocity);
-    };
-    const double at_first = energy();
-    double highest = 0.0;
-    for (int i = 0; i < 5; ++i) {
-        const auto report = solver.advance(0.1, longest);
-        EXPECT_TRUE(report.ok()) << report.error().message();
-        highest = std::max(highest, energy());
-    }
-    return highest / at_first;
-}
-
-TEST_F(SimulationPhysics, AColumnTooDeepForTheStepBoilsUnlessItsStepsAreHeldToItsDepth) {
-    SimulationSettings settings;
-    settings.low = {0, 0, 0};
-    settings.high = {0.16F, 2.4F, 0.16F};
-    const std::vector<float> positions = lattice({0, 0, 0}, 4, 40, 4, 0.04F, 0.0F, 1);
-    EXPECT_LT(rise(*make(settings, positions), 1.0 / 60.0), 1.0);
-    settings.overshoot = 0.0F;
-    EXPECT_GT(rise(*make(settings, positions), 1.0 / 60.0), 1.05)
-        << "nothing to hold a step to: this test shows nothing";
-}
-
-TEST_F(SimulationPhysics, DepthIsMeasuredAlongGravityWhicheverWayItPoints) {
-    for (const std::size_t axis : {0U, 1U, 2U}) {
-        SimulationSettings settings;
-        settings.gravity = {1, -1, 1};
-        settings.gravity[axis] = -9.0F;
-        settings.low = {0, 0, 0};
-        settings.high = {0.32F, 0.32F, 0.32F};
-        settings.high[axis] = 3.0F;
-        std::array<int, 3> number{8, 8, 8};
-        number[axis] = 20;
-        std::vector<float> positions = lattice({0, 0, 0}, number[0], number[1], number[2], 0.04F, 0.0F, 1);
-        const auto report = make(settings, positions)->step(0.001);
-        ASSERT_TRUE(report.ok()) << report.error().message();
-        // Two by two particles of a cell's width in each of 20 layers; a cell is a little wider than that.
-        EXPECT_NEAR(report.value().depth, 0.8, 0.01) << axis;
-        settings.overshoot = 0.0F;
-        EXPECT_EQ(make(settings, positions)->step(0.001).value().depth, 0.0);
-        settings.overshoot = 0.17F;
-        settings.gravity = {0, 0, 0};
-        EXPECT_EQ(make(settings, positions)->step(0.001).value().depth, 0.0);
     }
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <numeric>
 #include <random>
 #include <vector>
 
@@ -70,6 +71,20 @@ inline std::vector<float> lattice(const Triple& corner, int x, int y, int z, flo
         }
     }
     return positions;
+}
+
+inline double squares(const std::vector<float>& values) {
+    return std::accumulate(values.begin(), values.end(), 0.0,
+                           [](double total, float value) { return total + double{value} * double{value}; });
+}
+
+/// Potential and kinetic, of particles of mass 1 under the default gravity.
+inline double energyOf(const ParticleState& state) {
+    double potential = 0.0;
+    for (std::size_t i = 1; i < state.position.size(); i += 3) {
+        potential += 9.81 * double{state.position[i]};
+    }
+    return potential + 0.5 * squares(state.velocity);
 }
 
 }  // namespace sluice::vk::test
