@@ -155,6 +155,7 @@ void addRender(Line& line) {
              namesHostFault(text) ? into(o.host_fault, parseHostFault)(text) : into(o.fault, parseFault)(text);
          },
          "for tests: let something go wrong in frame FRAME\n(docs/cli.md has the kinds)")
+        ->excludes(no_fluid)
         ->type_name("KIND@FRAME");
     addVerbosity(c, line);
     c.footer(std::string("A particle file may be .pos, .ply or .bgeo. Every input is checked before the\n"

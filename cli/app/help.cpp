@@ -107,6 +107,11 @@ std::string usageError(const CLI::App& app, const CLI::ParseError& error) {
                            nameOf(*command));
     }
     const std::string_view what = error.what();
+    // CLI11 words it as a count of arguments: "--size: At Most 1 required but received 2".
+    if (const std::size_t once = what.find(": At Most 1 required but received "); once != std::string_view::npos) {
+        return fmt::format("sluice: error: {} may be given once, found it {} times\n", what.substr(0, once),
+                           what.substr(what.rfind(' ') + 1));
+    }
     // A value that is wrong has its remedy with it; what is missing has not.
     const bool told = what.find("found") != std::string_view::npos;
     return told ? fmt::format("sluice: error: {}\n", what)

@@ -5,6 +5,8 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "app/user_words.hpp"
+
 namespace sluice::cli {
 namespace {
 
@@ -39,7 +41,7 @@ void startLog(int verbosity, bool quiet) {
 }
 
 void log(SluiceLogLevel level, std::string_view message) {
-    spdlog::default_logger_raw()->log(spdlogLevel(level), "{}", message);
+    spdlog::default_logger_raw()->log(spdlogLevel(level), "{}", inUserWords(message));
 }
 
 void logError(const Error& error) {

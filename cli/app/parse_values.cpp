@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 
 namespace sluice::cli {
 namespace {
@@ -87,42 +88,65 @@ Result<float> parseRadius(std::string_view text) {
     return radius;
 }
 
+namespace {
+
+struct FaultNumbers {
+    std::uint64_t frame = 0, value = 0;
+};
+
+/// What stands behind the kind; `text` has an '@'.
+Result<FaultNumbers> parseFaultNumbers(std::string_view text) {
+    const std::size_t at = text.find('@');
+    const std::size_t equals = std::min(text.find('=', at), text.size());
+    const std::int64_t frame = whole(text.substr(at + 1, equals - at - 1));
+    if (frame < 1) {
+        return badValue("--fault", "a frame behind the @ (a whole number; frames count from 1)", text);
+    }
+    const std::int64_t value = equals < text.size() ? whole(text.substr(equals + 1)) : 0;
+    if (value < 0) {
+        return badValue("--fault", fmt::format("a VALUE behind the = from 0 to {}", INT64_MAX), text);
+    }
+    return FaultNumbers{static_cast<std::uint64_t>(frame), static_cast<std::uint64_t>(value)};
+}
+
+}  // namespace
+
 bool namesHostFault(std::string_view text) {
-    const std::string_view name = text.substr(0, text.find('@'));
+    const std::string_view name = text.substr(0, text.find_first_of("@/="));
     return std::any_of(host::kHostFaultNames.begin(), host::kHostFaultNames.end(),
                        [&](const auto& one) { return one.first == name; });
 }
 
 Result<host::HostFault> parseHostFault(std::string_view text) {
-    const std::size_t at = std::min(text.find('@'), text.size());
-    const std::size_t equals = std::min(text.find('=', at), text.size());
+    const std::string_view what = text.substr(0, text.find_first_of("@="));
+    const std::string_view name = what.substr(0, what.find('/'));
     const auto* kind = std::find_if(host::kHostFaultNames.begin(), host::kHostFaultNames.end(),
-                                    [&](const auto& one) { return one.first == text.substr(0, at); });
-    const std::int64_t frame = at < text.size() ? whole(text.substr(at + 1, equals - at - 1)) : kNotWhole;
-    const std::int64_t value = equals < text.size() ? whole(text.substr(equals + 1)) : 0;
-    if (kind == host::kHostFaultNames.end() || frame < 1 || value < 0) {
+                                    [&](const auto& one) { return one.first == name; });
+    if (kind == host::kHostFaultNames.end() || text.find('@') == std::string_view::npos) {
         return badValue("--fault", "KIND@FRAME[=VALUE] of a host fault (docs/cli.md)", text);
     }
-    return host::HostFault{kind->second, static_cast<std::uint64_t>(frame), static_cast<std::uint64_t>(value)};
+    if (name != what) {
+        return badValue("--fault", fmt::format("{} without a direction, for it is no fault of the hand-off", name),
+                        text);
+    }
+    const Result<FaultNumbers> numbers = parseFaultNumbers(text);
+    if (!numbers) {
+        return numbers.error();
+    }
+    return host::HostFault{kind->second, numbers.value().frame, numbers.value().value};
 }
 
 Result<host::FaultPlan> parseFault(std::string_view text) {
     const std::size_t at = text.find('@');
-    const std::size_t equals = text.find('=', at == std::string_view::npos ? 0 : at);
     const std::string_view what = text.substr(0, at);
     const std::size_t slash = what.find('/');
     const std::string_view name = what.substr(0, slash);
     const auto* kind = std::find_if(host::kFaultNames.begin(), host::kFaultNames.end(),
                                     [&](const auto& one) { return one.first == name; });
-    const std::int64_t frame =
-        at == std::string_view::npos
-            ? kNotWhole
-            : whole(text.substr(at + 1, equals == std::string_view::npos ? equals : equals - at - 1));
-    const std::int64_t value = equals == std::string_view::npos ? 0 : whole(text.substr(equals + 1));
     const std::string_view side = slash == std::string_view::npos ? std::string_view{} : what.substr(slash + 1);
     const bool side_known =
         slash == std::string_view::npos || side == "to-renderer" || side == "to-host" || side == "simulation";
-    if (kind == host::kFaultNames.end() || frame < 1 || value < 0 || !side_known) {
+    if (kind == host::kFaultNames.end() || at == std::string_view::npos || !side_known) {
         std::string kinds;
         for (const auto& [one, ignored] : host::kFaultNames) {
             kinds += fmt::format("{}{}", kinds.empty() ? "" : ", ", one);
@@ -134,10 +158,14 @@ Result<host::FaultPlan> parseFault(std::string_view text) {
                         fmt::format("KIND[/to-renderer|/to-host|/simulation]@FRAME[=VALUE], KIND one of {}", kinds),
                         text);
     }
+    const Result<FaultNumbers> numbers = parseFaultNumbers(text);
+    if (!numbers) {
+        return numbers.error();
+    }
     host::FaultPlan plan;
     plan.kind = kind->second;
-    plan.frame = static_cast<std::uint64_t>(frame);
-    plan.value = static_cast<std::uint64_t>(value);
+    plan.frame = numbers.value().frame;
+    plan.value = numbers.value().value;
     const bool about_waits = plan.kind == host::FaultKind::SkipWait || plan.kind == host::FaultKind::EarlyReuse;
     plan.direction =
         side == "to-host" || (side.empty() && about_waits) ? SLUICE_RENDERER_TO_HOST : SLUICE_HOST_TO_RENDERER;

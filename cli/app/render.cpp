@@ -109,7 +109,7 @@ int renderChecked(const RenderOptions& options, RenderInputs inputs) {
         logError(status.error());
         return kExitInternal;
     }
-    Run run{options, std::move(inputs), std::move(session).value(), {}, {}, {}, {}, {}};
+    Run run{options, std::move(inputs), std::move(session).value(), {}, {}, {}, {}, {}, {}, 0};
     if (run.inputs.live) {
         run.live.emplace(*run.inputs.live, run.inputs.frames);
         run.summary.particles = run.inputs.live->count();

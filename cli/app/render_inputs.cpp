@@ -138,7 +138,15 @@ Status checkInputs(RenderInputs& inputs, bool progress) {
         }
         Result<particles::ParticleSet> set = loadParticles(inputs.scene.particles, path.value());
         if (!set) {
-            return set.error();
+            Error error = set.error();
+            std::error_code ignored;
+            const scene::Simulation& simulation = inputs.scene.simulation;
+            if ((!simulation.fluid.empty() || !simulation.emitters.empty()) &&
+                !std::filesystem::exists(path.value(), ignored)) {
+                error.remedy = fmt::format("to simulate them: sluice simulate {} -o {}", inputs.scene_file,
+                                           inputs.scene.particles.path);
+            }
+            return error;
         }
         if (const auto bodies = readBodies(inputs.scene, path.value()); !bodies) {
             return bodies.error();

@@ -14,6 +14,7 @@
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
 #include "app/outputs.hpp"
+#include "app/user_words.hpp"
 #include "image/exr.hpp"
 #include "image/png.hpp"
 #include "report/progress.hpp"
@@ -22,15 +23,16 @@ namespace sluice::cli {
 namespace {
 
 /// Says it once, as an error, unless FluidHost has, and remembers it for the summary.
-void noteProblem(Run& run, const Error& error) {
-    const std::string message = error.message();
+void noteProblem(Run& run, const Error& error, std::optional<std::int64_t> frame = {}) {
+    const std::string message = inUserWords(error.message());
     const bool refused = error.code == SLUICE_ERROR_INVALID_ARGUMENT || error.code == SLUICE_ERROR_UNSUPPORTED;
     const bool told = run.session.fluid && run.session.fluid->recovering() && !refused;
-    if (run.summary.problems.empty() || run.summary.problems.back() != message) {
+    if (run.last_problem != message) {
         if (!told) {
             log(SLUICE_LOG_ERROR, message + "; the host's frame goes on without fluid");
         }
-        run.summary.problems.push_back(message);
+        run.summary.problems.push_back(frame ? fmt::format("frame {}: {}", *frame, message) : message);
+        run.last_problem = message;
     }
     run.summary.exit_code = kExitNoFluid;
 }
@@ -64,7 +66,7 @@ Status updateParticles(Run& run, std::int64_t frame) {
     run.particle_file = path.value();
     if (run.session.fluid) {
         if (const Status status = run.session.fluid->setParticles(particleView(set.value())); !status) {
-            noteProblem(run, status.error());
+            noteProblem(run, status.error(), frame);
             // Particles that were refused would leave the last ones in the picture; all else is FluidHost's to mend.
             if (status.error().code == SLUICE_ERROR_INVALID_ARGUMENT) {
                 run.session.fluid.reset();
@@ -136,6 +138,20 @@ void noteSimulation(Run& run) {
     run.summary.live = run.live->summary();
 }
 
+/// An order that is wrong may leave no other trace.
+void noteFault(Run& run, std::int64_t frame) {
+    const std::optional<host::FaultPlan>& fault = run.options.fault;
+    if (fault && !host::ofProcess(fault->kind) && run.session.fluid && run.submitted < fault->frame &&
+        run.session.fluid->frame() >= fault->frame) {
+        log(SLUICE_LOG_WARNING, fmt::format("--fault: injected in frame {}", frame));
+    }
+    const std::optional<host::HostFault>& other = run.options.host_fault;
+    if (other && run.session.fluid && static_cast<std::uint64_t>(frame - run.inputs.frames.first) + 1 == other->frame) {
+        log(SLUICE_LOG_WARNING, fmt::format("--fault: injected in frame {}", frame));
+    }
+    run.submitted = run.session.fluid ? run.session.fluid->frame() : run.submitted;
+}
+
 /// Draws and writes every frame. The returned code is that of the first thing that ended the run, or 0.
 int renderFrames(Run& run) {
     Progress progress(static_cast<std::uint64_t>(run.inputs.frames.count()), !run.options.quiet);
@@ -146,16 +162,20 @@ int renderFrames(Run& run) {
         progress.update(run.summary.frames_written, fmt::format("frame {}", frame));
         if (run.live) {
             if (const Status status = run.live->begin(run.session.fluid.get(), frame); !status) {
-                noteProblem(run, status.error());
+                noteProblem(run, status.error(), frame);
             }
         } else if (const Status status = updateParticles(run, frame); !status) {
             logError(status.error());
             return kExitBadInput;
         }
         const FrameResult result = renderFrame(run.session, run.inputs, run.options, frame);
-        if (result.failure) {
-            noteProblem(run, *result.failure);
+        if (result.failure && interrupted()) {
+            return kExitInterrupted;  // the wait was cut short, and the same frame may well have fluid next time
         }
+        if (result.failure) {
+            noteProblem(run, *result.failure, frame);
+        }
+        noteFault(run, frame);
         account(run, result);
         noteSimulation(run);
         if (const Status status = writeFiles(run, result, frame); !status) {
@@ -191,7 +211,12 @@ int renderAll(Run& run) {
     try {
         if (!run.options.no_fluid) {
             if (const Status status = startFluid(run.session, run.inputs, run.options); !status) {
-                noteProblem(run, status.error());
+                if (run.options.fault || run.options.host_fault) {
+                    log(SLUICE_LOG_WARNING, "--fault: there is no renderer, so nothing was injected");
+                }
+                if (!interrupted()) {
+                    noteProblem(run, status.error());
+                }
             } else {
                 describeRenderer(run);
             }

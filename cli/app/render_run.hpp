@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/live_run.hpp"
@@ -26,6 +27,8 @@ struct Run {
     std::vector<TraceRecord> records;  ///< kept only when a trace file is wanted
     std::filesystem::path particle_file;
     std::optional<LiveRun> live;  ///< in the place of particle files
+    std::string last_problem;
+    std::uint64_t submitted = 0;  ///< FluidHost::frame() after the last frame
 };
 
 /// Starts the renderer, draws and writes every frame. The exit code of the first thing that ended the run, or 0.

@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 
+#include "app/interrupt.hpp"
 #include "app/log.hpp"
 #include "app/plugin_path.hpp"
 #include "sluice/abi_sizes.hpp"
@@ -18,6 +20,11 @@ constexpr std::size_t kTraceCapacity = 1U
 
 /// How the plugin's log lines about the validation layer begin.
 constexpr std::string_view kValidationPrefix = "validation: ";
+
+constexpr std::uint64_t kLongestSetUpNs = 600'000'000'000;
+std::uint64_t nanoseconds(double seconds) {
+    return static_cast<std::uint64_t>(seconds * 1e9);
+}
 
 /// Milliseconds that `work` took.
 template <typename Work>
@@ -55,6 +62,23 @@ bool ofProcess(const std::optional<host::FaultPlan>& fault) {
     return fault && host::ofProcess(fault->kind);
 }
 
+/// What the renderer's process is to do to itself. A call that would outlast the deadline hangs there, where it is
+/// ended.
+std::optional<host::FaultPlan> processFault(const RenderOptions& options) {
+    if (ofProcess(options.fault)) {
+        return options.fault;
+    }
+    const std::optional<host::HostFault>& fault = options.host_fault;
+    if (!options.isolate || !fault || fault->kind != host::HostFaultKind::Hang) {
+        return std::nullopt;
+    }
+    const std::uint64_t ms = fault->value != 0 ? fault->value : host::kHangMs;
+    if (static_cast<double>(ms) < options.deadline_s * 1e3) {
+        return std::nullopt;
+    }
+    return host::FaultPlan{host::FaultKind::StopRenderer, fault->frame};
+}
+
 Result<host::PluginLibrary> isolatePlugin(const RenderOptions& options) {
     Result<std::filesystem::path> path = findPlugin(options.plugin);
     if (!path) {
@@ -63,7 +87,11 @@ Result<host::PluginLibrary> isolatePlugin(const RenderOptions& options) {
     host::IsolationConfig config;
     config.program = rendererProgram();
     config.plugin = std::move(path).value();
-    config.fault = ofProcess(options.fault) ? options.fault : std::nullopt;
+    config.fault = processFault(options);
+    // Making images, programs and particles takes as long as it takes; a frame has its deadline.
+    config.call_timeout_ns = std::max(kLongestSetUpNs, nanoseconds(options.deadline_s));
+    config.frame_call_timeout_ns = nanoseconds(options.deadline_s);
+    config.hurry = interrupted;
     return host::PluginLibrary::isolated(config);
 }
 
@@ -156,9 +184,9 @@ Status startFluid(RenderSession& session, const RenderInputs& inputs, const Rend
     config.trace = session.trace.get();
     config.ledger = session.ledger.get();
     config.fault = options.isolate && ofProcess(options.fault) ? std::nullopt : options.fault;
-    config.host_fault = options.host_fault;
-    config.call_alarm_ns = static_cast<std::uint64_t>(options.deadline_s * 1e9);
-    config.wait_timeout_ns = static_cast<std::uint64_t>(options.deadline_s * 1e9);
+    config.host_fault = processFault(options) ? std::nullopt : options.host_fault;
+    config.call_alarm_ns = nanoseconds(options.deadline_s);
+    config.wait_timeout_ns = nanoseconds(options.deadline_s);
     config.log = [seen = session.validation_messages.get()](SluiceLogLevel level, std::string_view message) {
         if (message.starts_with(kValidationPrefix)) {
             // Whoever asked for validation wants to see every message, with --quiet too.
@@ -169,7 +197,12 @@ Status startFluid(RenderSession& session, const RenderInputs& inputs, const Rend
     };
     Result<std::unique_ptr<host::FluidHost>> fluid = host::FluidHost::create(*session.library, config);
     if (!fluid) {
-        return fluid.error();
+        Error error = fluid.error();
+        if (options.isolate && error.code == SLUICE_ERROR_DEVICE_LOST) {
+            error.remedy = fmt::format("{}x{} may be more than this device can make: give a smaller --size",
+                                       config.width, config.height);
+        }
+        return error;
     }
     session.fluid = std::move(fluid).value();
     const SluiceRendererInfo& info = session.fluid->info();

@@ -16,6 +16,10 @@ double median(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2.0;
 }
 
+double maximum(const std::vector<double>& values) {
+    return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
+}
+
 void PassStatistics::add(const SluiceFrameStats& stats) {
     std::vector<bool> begun(passes_.size(), false);
     for (std::uint32_t i = 0; i < std::min(stats.pass_count, SLUICE_MAX_PASSES); ++i) {
@@ -48,8 +52,8 @@ std::vector<PassRow> PassStatistics::rows() const {
     for (const Samples& pass : passes_) {
         const auto [low, high] = std::minmax_element(pass.ms.begin(), pass.ms.end());
         rows.push_back({pass.name, pass.calls, pass.ms.size(), median(pass.ms), *low, *high,
-                        static_cast<std::uint64_t>(median(pass.elements)),
-                        static_cast<std::uint64_t>(median(pass.bytes)),
+                        static_cast<std::uint64_t>(maximum(pass.elements)),
+                        static_cast<std::uint64_t>(maximum(pass.bytes)),
                         static_cast<std::uint64_t>(median(pass.dispatches)), pass.particles});
     }
     return rows;

@@ -14,14 +14,18 @@ namespace sluice::cli {
 /// The middle value, or the mean of the two middle ones; 0 of nothing.
 [[nodiscard]] double median(std::vector<double> values);
 
+/// 0 of nothing.
+[[nodiscard]] double maximum(const std::vector<double>& values);
+
 /// One pass over all frames. A pass that ran several times in a frame counts with the sum of that frame.
 struct PassRow {
     std::string name;
-    std::uint64_t calls = 0;                                ///< over all frames
-    std::uint64_t frames = 0;                               ///< frames in which it ran
-    double median_ms = 0.0, min_ms = 0.0, max_ms = 0.0;     ///< per frame
-    std::uint64_t elements = 0, bytes = 0, dispatches = 0;  ///< median per frame
-    bool particles = false;                                 ///< elements are particles, else pixels
+    std::uint64_t calls = 0;                             ///< over all frames
+    std::uint64_t frames = 0;                            ///< frames in which it ran
+    double median_ms = 0.0, min_ms = 0.0, max_ms = 0.0;  ///< per frame
+    std::uint64_t elements = 0, bytes = 0;               ///< of the frame with the most
+    std::uint64_t dispatches = 0;                        ///< median per frame
+    bool particles = false;                              ///< elements are particles, else pixels
 };
 
 /// Gathers SluiceFrameStats; rows come in the order in which the passes were first seen.

@@ -31,10 +31,6 @@ std::vector<const HostRow*> hostRows(const RunSummary& s) {
     return rows;
 }
 
-double maximum(const std::vector<double>& values) {
-    return values.empty() ? 0.0 : *std::max_element(values.begin(), values.end());
-}
-
 std::string passTable(const RunSummary& s) {
     std::vector<std::vector<std::string>> rows{
         {"pass", "calls", "median ms", "elements up to", "", "bytes, each once"}};
@@ -154,8 +150,12 @@ Json ledgerJson(const std::optional<LedgerSummary>& s) {
 }  // namespace
 
 std::string summaryText(const RunSummary& s) {
-    std::string text = fmt::format("{} of {} frames, {}x{}, {} particles of radius {:.5f} m\n", s.frames_written,
-                                   s.frames.count(), s.size.width, s.size.height, formatCount(s.particles), s.radius);
+    const std::string fluid = s.has_renderer && s.frames_with_fluid < s.frames_written
+                                  ? fmt::format(" ({} with fluid)", s.frames_with_fluid)
+                                  : std::string();
+    std::string text =
+        fmt::format("{} of {} frames{}, {}x{}, {} particles of radius {:.5f} m\n", s.frames_written, s.frames.count(),
+                    fluid, s.size.width, s.size.height, formatCount(s.particles), s.radius);
     if (s.has_renderer) {
         text += fmt::format("renderer  {} on {} ({})\n", s.renderer, s.info.capabilities.device_name,
                             s.info.capabilities.driver_name);

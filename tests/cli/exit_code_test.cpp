@@ -38,6 +38,8 @@ TEST_F(ExitCode, EverySampleThatHelpNamesExists) {
 }
 
 TEST_F(ExitCode, WrongCommandLinesAreOne) {
+    EXPECT_EQ(run("render s.json -o a.png -o b.png").err,
+              "sluice: error: --output may be given once, found it 2 times\n");
     writeParticles("p.pos", 4);
     writeScene("s.json", "p.pos");
     for (const char* words :

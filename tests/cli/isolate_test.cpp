@@ -8,6 +8,7 @@ namespace sluice::test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 std::size_t count(const std::string& text, const std::string& what) {
     std::size_t found = 0;
@@ -57,10 +58,27 @@ TEST_F(IsolateOption, ARendererThatDiesCostsOneFrameItsFluidAndIsToldOnce) {
     EXPECT_TRUE(read("a_0003.png") == read("wet_0003.png")) << "by the process that took its place";
 }
 
+TEST_F(IsolateOption, ARendererThatStopsIsEndedAtTheDeadline) {
+    for (const char* fault : {"stop-renderer@2", "hang@2=600000"}) {
+        const Outcome outcome = run(std::string("render s.json -o a_####.png --isolate --deadline 2 --fault ") + fault);
+        EXPECT_EQ(outcome.code, 3) << outcome.err;
+        EXPECT_THAT(outcome.err, HasSubstr("did not answer submit_frame of frame 2 within 2.000 s and was killed"));
+        EXPECT_THAT(outcome.err, Not(HasSubstr("--isolate"))) << "advice that was taken";
+        EXPECT_TRUE(exists("a_0003.png"));
+    }
+}
+
+TEST_F(IsolateOption, AnInterruptDoesNotWaitForTheDeadline) {
+    const Outcome outcome = run("render s.json -o a_####.png --isolate --deadline 3600 --fault stop-renderer@1",
+                                "timeout --foreground --preserve-status -s INT -k 120 3");
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_FALSE(exists("a_0003.png"));
+}
+
 TEST_F(IsolateOption, AFaultOfAProcessNeedsOneAndAFrame) {
     const Outcome here = run("render s.json -o a_####.png --fault kill-renderer@2");
     EXPECT_EQ(here.code, 1);
-    EXPECT_THAT(here.err, HasSubstr("which would die with it (isolate the renderer)"));
+    EXPECT_THAT(here.err, HasSubstr("which would die with it (give --isolate)"));
     EXPECT_FALSE(exists("a_0001.png"));
     const Outcome never = run("render s.json -o a_####.png --isolate --fault crash-renderer@9");
     EXPECT_EQ(never.code, 0) << never.err;

@@ -12,6 +12,7 @@ namespace {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 TEST(ParseFault, KnowsEveryKindItsDirectionAndItsValue) {
     for (const auto& [name, kind] : host::kFaultNames) {
@@ -151,6 +152,25 @@ TEST_F(LedgerOption, AFaultThatWouldHangOrNeverComesIsSaid) {
     const Outcome late = run("render s.json -o a_####.png --frames 1..2 --fault drop@9");
     EXPECT_EQ(late.code, 0) << late.err;
     EXPECT_THAT(late.err, HasSubstr("fault drop: frame 9 never came, the last one was 2"));
+    const Outcome skipped = run("render s.json -o a_####.png --frames 1..2 --fault skip-wait@2");
+    EXPECT_EQ(skipped.code, 0) << skipped.err;
+    EXPECT_THAT(skipped.err, HasSubstr("--fault: injected in frame 2\n"));
+    const Outcome nobody = run("render s.json -o a.png --plugin /no/x.so --fault drop@1");
+    EXPECT_EQ(nobody.code, 3);
+    EXPECT_THAT(nobody.err, HasSubstr("nothing was injected"));
+    EXPECT_EQ(run("render s.json -o a.png --no-fluid --fault drop@1").code, 1);
+}
+
+TEST_F(LedgerOption, FluidThatWasLostIsCountedAndItsMessageIsForTheUser) {
+    const Outcome outcome = run("render s.json -o a_####.png --frames 1..4 --fault context-lost@3");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.out, HasSubstr("4 of 4 frames (2 with fluid), "));
+    EXPECT_THAT(outcome.out, HasSubstr("problem: frame 3: GL context"));
+    EXPECT_THAT(outcome.out + outcome.err, Not(HasSubstr("FluidHost")));
+    const Outcome quiet = run("render s.json -o a_####.png --frames 1..4 --fault context-lost@3 --quiet");
+    EXPECT_THAT(quiet.err, HasSubstr("GL context"));
+    const Outcome fds = run("render s.json -o a_####.png --frames 1..3 --fault out-of-fds@2");
+    EXPECT_THAT(fds.err, HasSubstr("the injected fault has lowered their limit"));
 }
 
 TEST_F(LedgerOption, ALogThatCannotBeWrittenIsSaidBeforeAnyWork) {

@@ -50,6 +50,11 @@ TEST(PassStatistics, SumsWithinAFrameAndTakesTheMedianOverFrames) {
     EXPECT_DOUBLE_EQ(rows[1].max_ms, 15.0);
     EXPECT_EQ(rows[1].elements, 100U);
     EXPECT_EQ(rows[1].bytes, 20U);
+    SluiceFrameStats more{};
+    more.pass_count = 1;
+    more.passes[0] = pass("splat", 1'000'000, 170);
+    statistics.add(more);
+    EXPECT_EQ(statistics.rows()[0].elements, 170U) << "a bound is of every frame";
 }
 
 TraceRecord copy(const char* name, std::uint64_t bytes) {

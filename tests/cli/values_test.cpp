@@ -34,6 +34,31 @@ TEST(SizeText, AcceptsPositiveSizesAndRefusesTheRest) {
     }
 }
 
+TEST(FaultText, NamesWhatIsWrongWithIt) {
+    const auto said = [](const char* text) {
+        if (namesHostFault(text)) {
+            const auto fault = parseHostFault(text);
+            return fault ? std::string("nothing") : fault.error().message();
+        }
+        const auto fault = parseFault(text);
+        return fault ? std::string("nothing") : fault.error().message();
+    };
+    using ::testing::HasSubstr;
+    EXPECT_EQ(said("hang@3=5"), "nothing");
+    EXPECT_EQ(said("drop/to-host@1=9223372036854775807"), "nothing");
+    EXPECT_THAT(said("device-lost@0"), HasSubstr("frames count from 1"));
+    EXPECT_THAT(said("drop@x"), HasSubstr("frames count from 1"));
+    EXPECT_THAT(said("drop@"), HasSubstr("frames count from 1"));
+    for (const char* text :
+         {"hang@3=-5", "hang@3=", "hang@3=99999999999999999999", "wrong-value@1=18446744073709551615"}) {
+        EXPECT_THAT(said(text), HasSubstr("from 0 to 9223372036854775807")) << text;
+    }
+    EXPECT_THAT(said("device-lost/to-host@3"), HasSubstr("without a direction"));
+    for (const char* text : {"hang", "drop", "drop/@1", "fall@1", "@1", "=1"}) {
+        EXPECT_THAT(said(text), HasSubstr("@FRAME[=VALUE]")) << text;
+    }
+}
+
 RenderOptions outputs(const std::string& png, const std::string& exr = "") {
     RenderOptions options;
     options.output = png;

@@ -12,7 +12,20 @@
 
 namespace sluice::host {
 
-CallWatch::CallWatch(std::uint64_t patience_ns, Log log) : patience_ns_(patience_ns), log_(std::move(log)) {
+namespace {
+
+std::string whatEndsIt(std::uint64_t limit_ns, std::uint64_t spent_ns) {
+    if (limit_ns == 0) {
+        return "a call inside this process cannot be ended, one in a process of its own can (sluice render --isolate)";
+    }
+    return fmt::format("its process is killed in {:.1f} s",
+                       static_cast<double>(limit_ns - std::min(limit_ns, spent_ns)) * 1e-9);
+}
+
+}  // namespace
+
+CallWatch::CallWatch(std::uint64_t patience_ns, Log log, CallLimits limits)
+    : patience_ns_(patience_ns), log_(std::move(log)), limits_(limits) {
     if (patience_ns_ != 0) {
         thread_ = std::thread([this] { run(); });
     }
@@ -57,16 +70,16 @@ void CallWatch::run() {
         }
         const char* call = std::exchange(call_, nullptr);
         const std::uint64_t frame = frame_;
-        const double seconds = static_cast<double>(now - begin_ns_) * 1e-9;
+        const std::uint64_t spent = now - begin_ns_;
+        const std::uint64_t limit = frame != 0 ? limits_.frame_call_ns : limits_.call_ns;
         lock.unlock();
         try {
             if (log_) {
                 log_(SLUICE_LOG_WARNING,
-                     fmt::format(
-                         "watchdog: the renderer has not come back from {}{} for {:.1f} s, and the host's frame "
-                         "waits for it; a call inside this process cannot be ended, one in a process of its own can "
-                         "(sluice render --isolate)",
-                         call, frame != 0 ? fmt::format(" of frame {}", frame) : std::string(), seconds));
+                     fmt::format("watchdog: the renderer has not come back from {}{} for {:.1f} s, and the host's "
+                                 "frame waits for it; {}",
+                                 call, frame != 0 ? fmt::format(" of frame {}", frame) : std::string(),
+                                 static_cast<double>(spent) * 1e-9, whatEndsIt(limit, spent)));
             }
         } catch (const std::exception&) {
             // Without memory there is no line; the call is no later for it.

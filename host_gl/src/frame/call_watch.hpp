@@ -9,6 +9,7 @@
 #include <string_view>
 #include <thread>
 
+#include "sluice/host_gl/isolation.hpp"
 #include "sluice/plugin.h"
 
 namespace sluice::host {
@@ -20,8 +21,8 @@ class CallWatch {
     using Log = std::function<void(SluiceLogLevel, std::string_view)>;
 
     /// A call is late after `patience_ns`; 0: nothing is watched and there is no thread. `log` is called on that
-    /// thread.
-    CallWatch(std::uint64_t patience_ns, Log log);
+    /// thread. `limits`: after how long somebody else ends a call.
+    CallWatch(std::uint64_t patience_ns, Log log, CallLimits limits = {});
     CallWatch(const CallWatch&) = delete;
     CallWatch& operator=(const CallWatch&) = delete;
     ~CallWatch();
@@ -47,6 +48,7 @@ class CallWatch {
 
     std::uint64_t patience_ns_;
     Log log_;
+    CallLimits limits_;
     std::mutex mutex_;  // guards all below
     std::condition_variable wake_;
     bool stop_ = false;

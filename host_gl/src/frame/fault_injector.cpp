@@ -14,7 +14,6 @@ namespace sluice::host {
 namespace {
 
 constexpr const char* kThing = "injected fault";
-constexpr std::uint64_t kHangMs = 3000;
 
 }  // namespace
 

@@ -101,10 +101,17 @@ Status RecoveringHost::tryAgain() {
         life_.reset();
     }
     const std::uint64_t began = monotonicNanoseconds();
-    const Status status = withoutThrowing([this] {
+    const Status status = withoutThrowing([this]() -> Status {
         std::optional<NoDescriptors> taken;
         Status injected = faults_.inTry(taken);
-        return injected ? beginWithScene() : injected;
+        Status made = injected ? beginWithScene() : std::move(injected);
+        if (!made && taken) {
+            Error error = made.error();
+            error.detail += ", for the injected fault has lowered their limit";
+            error.remedy.clear();
+            return error;
+        }
+        return made;
     });
     if (!status) {
         life_.reset();

@@ -47,7 +47,7 @@ class RecoveringHost final : public FluidHost {
     RecoveringHost(const PluginLibrary& library, FluidHostConfig config)
         : library_(library),
           config_(std::move(config)),
-          watch_(config_.call_alarm_ns, config_.log),
+          watch_(config_.call_alarm_ns, config_.log, library_.limits()),
           faults_(config_.host_fault),
           recovery_(config_.recovery) {}
     RecoveringHost(const RecoveringHost&) = delete;

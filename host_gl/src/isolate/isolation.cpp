@@ -59,9 +59,11 @@ isolate::Hello helloFor(const IsolationConfig& config) {
     isolate::Hello hello;
     hello.abi_version = SLUICE_ABI_VERSION;
     if (config.fault) {
-        const bool crash = config.fault->kind == FaultKind::CrashRenderer;
-        hello.fault_signal = crash ? SIGSEGV : SIGKILL;
-        hello.fault_in_submit = crash ? 1 : 0;
+        const FaultKind kind = config.fault->kind;
+        hello.fault_signal = kind == FaultKind::CrashRenderer  ? SIGSEGV
+                             : kind == FaultKind::StopRenderer ? SIGSTOP
+                                                               : SIGKILL;
+        hello.fault_in_submit = kind == FaultKind::KillRenderer ? 0 : 1;
         hello.fault_frame = config.fault->frame;
     }
     return hello;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <atomic>
+#include <csignal>
 #include <memory>
 #include <span>
 #include <string>
@@ -28,7 +29,10 @@ void tellFaultThatNeverCame(const Proxy& self) {
     }
     self.services.log(self.services.user, SLUICE_LOG_WARNING,
                       fmt::format("fault {}-renderer: frame {} never came, the last one was {}: nothing was injected",
-                                  hello.fault_in_submit != 0 ? "crash" : "kill", hello.fault_frame, self.frame)
+                                  hello.fault_signal == SIGSTOP ? "stop"
+                                  : hello.fault_in_submit != 0  ? "crash"
+                                                                : "kill",
+                                  hello.fault_frame, self.frame)
                           .c_str());
 }
 

@@ -84,7 +84,10 @@ SluiceResult create(Isolation& plugin, const SluiceHostServices* host, const Slu
         isolate::Create call;
         call.wants_trace = host->trace != nullptr ? 1 : 0;
         call.info = readAbiStruct(*info);
-        if (Status status = simply(*made->process, call, "create", {&made->services, nullptr, nullptr}); !status) {
+        if (Status status =
+                simply(*made->process, call, fmt::format("create of {}x{}", call.info.width, call.info.height),
+                       {&made->services, nullptr, nullptr});
+            !status) {
             return status;
         }
         auto settled = sized<SluiceRendererInfo>();

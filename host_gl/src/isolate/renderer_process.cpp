@@ -19,6 +19,13 @@ namespace {
 
 constexpr std::uint64_t kShortestCallNs = 1'000'000;
 constexpr std::uint64_t kLongestCallNs = 86'400'000'000'000;
+/// To load a plugin and say what it is.
+constexpr std::uint64_t kStartNs = 60'000'000'000;
+/// The end of a renderer waits for its frames in flight.
+constexpr std::uint64_t kDestroyNs = 10'000'000'000;
+/// How often IsolationConfig::hurry is asked, and how long a call may take after it has said yes.
+constexpr std::uint64_t kHurrySliceNs = 200'000'000;
+constexpr std::uint64_t kHurriedNs = 2'000'000'000;
 /// A process that ends closes its channel's two directions one right after the other.
 constexpr std::uint64_t kClosingNs = 1'000'000'000;
 /// Longer than a process can take to end or be left behind. Past it, the thread that listens is held up in a callback.
@@ -34,11 +41,21 @@ std::uint64_t until(std::uint64_t deadline_ns) {
 
 }  // namespace
 
+CallLimits limitsOf(const IsolationConfig& config) {
+    CallLimits limits;
+    limits.call_ns = std::clamp(config.call_timeout_ns, kShortestCallNs, kLongestCallNs);
+    const std::uint64_t frame = config.frame_call_timeout_ns != 0 ? config.frame_call_timeout_ns : limits.call_ns;
+    limits.frame_call_ns = std::clamp(frame, kShortestCallNs, limits.call_ns);
+    return limits;
+}
+
 Result<std::unique_ptr<RendererProcess>> RendererProcess::start(const IsolationConfig& config,
                                                                 const isolate::Hello& hello, ChildWatch watch) {
     std::unique_ptr<RendererProcess> process(new RendererProcess(config, hello, std::move(watch)));
-    std::uint64_t& timeout = process->config_.call_timeout_ns;
-    timeout = std::clamp(timeout, kShortestCallNs, kLongestCallNs);
+    const CallLimits limits = limitsOf(config);
+    process->config_.call_timeout_ns = limits.call_ns;
+    process->config_.frame_call_timeout_ns = limits.frame_call_ns;
+    const std::uint64_t timeout = std::min(limits.call_ns, kStartNs);
     Result<std::unique_ptr<isolate::SharedTimeline>> timeline = isolate::SharedTimeline::create();
     if (!timeline) {
         return timeline.error();
@@ -68,7 +85,7 @@ Result<std::unique_ptr<RendererProcess>> RendererProcess::start(const IsolationC
         return sent.error();  // nobody will answer what was never sent
     }
     // A process that ended before it listened tells more by its end than by the failed send.
-    Result<isolate::Received> answer = process->nextMessage(deadline);
+    Result<isolate::Received> answer = process->nextMessage(deadline, timeout);
     if (!answer) {
         Error error = answer.error();
         error.thing = fmt::format("renderer plugin '{}'", config.plugin.string());
@@ -107,6 +124,22 @@ RendererProcess::~RendererProcess() {
 void RendererProcess::limitCalls(std::uint64_t call_timeout_ns) {
     const std::scoped_lock lock(call_mutex_, mutex_);
     config_.call_timeout_ns = std::clamp(call_timeout_ns, kShortestCallNs, kLongestCallNs);
+    config_.frame_call_timeout_ns = config_.call_timeout_ns;
+}
+
+std::uint64_t RendererProcess::limitOf(const isolate::Message& message) const {
+    const bool of_frame =
+        std::holds_alternative<isolate::SubmitFrame>(message) || std::holds_alternative<isolate::Poll>(message) ||
+        std::holds_alternative<isolate::TimelineValue>(message) ||
+        std::holds_alternative<isolate::TimelineExport>(message) ||
+        std::holds_alternative<isolate::Simulate>(message) || std::holds_alternative<isolate::SimulationStats>(message);
+    if (of_frame) {
+        return config_.frame_call_timeout_ns;
+    }
+    // A renderer that holds up frames does not end either.
+    return std::holds_alternative<isolate::Destroy>(message)
+               ? std::min(config_.call_timeout_ns, std::max(config_.frame_call_timeout_ns, kDestroyNs))
+               : config_.call_timeout_ns;
 }
 
 bool RendererProcess::alive() {
@@ -154,10 +187,19 @@ Error RendererProcess::gone() {
     return error;
 }
 
-Result<isolate::Received> RendererProcess::nextMessage(std::uint64_t deadline_ns) {
+Result<isolate::Received> RendererProcess::nextMessage(std::uint64_t deadline_ns, std::uint64_t limit_ns) {
     std::unique_lock lock(mutex_);
-    const bool came = changed_.wait_for(lock, std::chrono::nanoseconds(until(deadline_ns)),
-                                        [this] { return !mail_.empty() || end_.has_value(); });
+    bool came = false;
+    bool hurried = false;
+    do {
+        const std::uint64_t left = until(deadline_ns);
+        came = changed_.wait_for(lock, std::chrono::nanoseconds(config_.hurry ? std::min(left, kHurrySliceNs) : left),
+                                 [this] { return !mail_.empty() || end_.has_value(); });
+        if (!came && !hurried && config_.hurry && config_.hurry() && until(deadline_ns) > kHurriedNs) {
+            hurried = true;
+            deadline_ns = monotonicNanoseconds() + kHurriedNs;
+        }
+    } while (!came && until(deadline_ns) != 0);
     if (!came && closed_) {
         lock.unlock();
         return gone();
@@ -165,8 +207,8 @@ Result<isolate::Received> RendererProcess::nextMessage(std::uint64_t deadline_ns
     if (!came) {
         const std::string doing = doing_;
         lock.unlock();
-        condemn(
-            fmt::format("did not answer {} within {:.3f} s and was killed", doing, seconds(config_.call_timeout_ns)));
+        condemn(fmt::format("did not answer {} within {:.3f} s{} and was killed", doing,
+                            seconds(hurried ? kHurriedNs : limit_ns), hurried ? " of the interruption" : ""));
         return gone();
     }
     if (mail_.empty()) {
@@ -188,7 +230,7 @@ Status RendererProcess::deliver(const isolate::Message& message, std::uint64_t n
         return {};
     }
     if (sent.error().code == SLUICE_TIMEOUT) {
-        condemn(fmt::format("did not take {} within {:.3f} s and was killed", what, seconds(config_.call_timeout_ns)));
+        condemn(fmt::format("did not take {} within {:.3f} s and was killed", what, seconds(limitOf(message))));
     } else if (sent.error().code != SLUICE_ERROR_DEVICE_LOST) {
         return sent;
     } else if (!channel_.closedThere(kClosingNs)) {
@@ -208,12 +250,13 @@ Result<Reply> RendererProcess::call(const isolate::Message& message, std::span<c
         waiting_ = true;
     }
     const std::uint64_t number = ++calls_;
-    std::uint64_t deadline = monotonicNanoseconds() + config_.call_timeout_ns;
+    const std::uint64_t limit = limitOf(message);
+    std::uint64_t deadline = monotonicNanoseconds() + limit;
     if (Status sent = deliver(message, number, fds, doing, deadline); !sent) {
         return sent.error();
     }
     for (std::uint32_t served = 0; served <= kMostCallbacks; ++served) {
-        Result<isolate::Received> received = nextMessage(deadline);
+        Result<isolate::Received> received = nextMessage(deadline, limit);
         if (!received) {
             return received.error();
         }

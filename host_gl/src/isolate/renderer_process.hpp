@@ -90,7 +90,9 @@ class RendererProcess {
     [[nodiscard]] bool log(std::int32_t level, const std::string& text);
 
     [[nodiscard]] Status spawned();
-    [[nodiscard]] Result<isolate::Received> nextMessage(std::uint64_t deadline_ns);
+    [[nodiscard]] Result<isolate::Received> nextMessage(std::uint64_t deadline_ns, std::uint64_t limit_ns);
+    /// How long this call may take.
+    [[nodiscard]] std::uint64_t limitOf(const isolate::Message& message) const;
     /// Sends it. A process that does not take it is ended; SLUICE_ERROR_DEVICE_LOST says that it is gone.
     [[nodiscard]] Status deliver(const isolate::Message& message, std::uint64_t number, std::span<const int> fds,
                                  const std::string& what, std::uint64_t deadline_ns);

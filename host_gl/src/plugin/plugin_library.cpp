@@ -70,6 +70,7 @@ Result<PluginLibrary> PluginLibrary::isolated(const IsolationConfig& config) {
     library.isolation_ = std::move(isolation).value();
     library.api_ = std::make_unique<const SluiceRendererApi>(library.isolation_->table());
     library.path_ = config.plugin;
+    library.limits_ = limitsOf(config);
     return library;
 }
 
@@ -77,13 +78,15 @@ PluginLibrary::PluginLibrary(PluginLibrary&& other) noexcept
     : handle_(std::exchange(other.handle_, nullptr)),
       isolation_(std::move(other.isolation_)),
       api_(std::move(other.api_)),
-      path_(std::move(other.path_)) {}
+      path_(std::move(other.path_)),
+      limits_(other.limits_) {}
 
 PluginLibrary& PluginLibrary::operator=(PluginLibrary&& other) noexcept {
     std::swap(handle_, other.handle_);
     std::swap(isolation_, other.isolation_);
     std::swap(api_, other.api_);
     std::swap(path_, other.path_);
+    std::swap(limits_, other.limits_);
     return *this;
 }
 

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
+#include <string_view>
 
 #include "sluice/abi_sizes.hpp"
 #include "timeline/timeline_events.hpp"
@@ -14,6 +16,21 @@ namespace {
 
 // How often a blocked wait looks whether it is still worth waiting.
 constexpr std::uint64_t kSliceNs = 50'000'000;
+
+std::string_view inWords(std::int32_t result) {
+    switch (result) {
+        case SLUICE_ERROR_INVALID_ARGUMENT:
+            return "the renderer refuses that value";
+        case SLUICE_ERROR_OUT_OF_MEMORY:
+            return "out of memory";
+        case SLUICE_ERROR_DEVICE_LOST:
+            return "the renderer is lost";
+        case SLUICE_ERROR_INTERNAL:
+            return "an internal fault of the renderer";
+        default:
+            return "sluice/plugin.h has its meaning";
+    }
+}
 
 /// `gave_up`: not the time has passed, but hope.
 SluiceResult waitInSlices(const TimelineDeps& deps, std::uint64_t value, std::uint64_t timeout_ns,
@@ -61,9 +78,10 @@ Status waitOnCpu(const TimelineDeps& deps, std::uint64_t value, std::uint64_t ti
                      "raise wait_timeout_ns, or look at the trace for what the renderer waits for"};
     }
     if (failed) {
-        return Error{result < 0 ? result : SLUICE_ERROR_INTERNAL, "renderer's timeline",
-                     fmt::format("waiting for {} failed with code {}", value, static_cast<int>(result)),
-                     "destroy the renderer and create it again"};
+        return Error{
+            result < 0 ? result : SLUICE_ERROR_INTERNAL, "renderer's timeline",
+            fmt::format("waiting for {} failed with code {}: {}", value, static_cast<int>(result), inWords(result)),
+            "destroy the renderer and create it again"};
     }
     if (deps.feed != nullptr) {
         deps.feed->hostWaited(value, begin, false);
@@ -105,9 +123,10 @@ Status signalFromCpu(const TimelineDeps& deps, std::uint64_t value, SluiceTrack 
     }
     const SluiceResult result = deps.api->timeline_signal(deps.renderer, value);
     if (result != SLUICE_OK) {
-        return Error{result < 0 ? result : SLUICE_ERROR_INTERNAL, "host's timeline",
-                     fmt::format("signalling {} failed with code {}", value, static_cast<int>(result)),
-                     "destroy the renderer and create it again"};
+        return Error{
+            result < 0 ? result : SLUICE_ERROR_INTERNAL, "host's timeline",
+            fmt::format("signalling {} failed with code {}: {}", value, static_cast<int>(result), inWords(result)),
+            "destroy the renderer and create it again"};
     }
     traceStep(deps.trace, SLUICE_TRACE_SIGNAL, track, SLUICE_HOST_TO_RENDERER, value, begin, "signal renderer");
     return {};

@@ -111,6 +111,7 @@ class FaultyTimeline final : public HostTimeline {
             case FaultKind::Swap:
             case FaultKind::KillRenderer:
             case FaultKind::CrashRenderer:
+            case FaultKind::StopRenderer:
                 break;
         }
         return inner_->wait(value, left, textures);
@@ -152,6 +153,7 @@ class FaultyTimeline final : public HostTimeline {
             case FaultKind::EarlyReuse:
             case FaultKind::KillRenderer:
             case FaultKind::CrashRenderer:
+            case FaultKind::StopRenderer:
                 break;
         }
         return inner_->signal(value, textures);

@@ -24,8 +24,9 @@ enum class FaultKind : std::uint8_t {
     EarlyReuse,     ///< the composite is left out, and so is the wait before the set is captured into again
     KillRenderer,   ///< an isolated renderer is killed (SIGKILL) when it is to tell that the frame is done
     CrashRenderer,  ///< it crashes (SIGSEGV) inside submit_frame, with the frame on its queue
+    StopRenderer,   ///< it is stopped (SIGSTOP) there, and submit_frame never comes back
 };
-inline constexpr std::array<std::pair<std::string_view, FaultKind>, 9> kFaultNames{
+inline constexpr std::array<std::pair<std::string_view, FaultKind>, 10> kFaultNames{
     {{"drop", FaultKind::Drop},
      {"delay", FaultKind::Delay},
      {"duplicate", FaultKind::Duplicate},
@@ -34,7 +35,8 @@ inline constexpr std::array<std::pair<std::string_view, FaultKind>, 9> kFaultNam
      {"skip-wait", FaultKind::SkipWait},
      {"early-reuse", FaultKind::EarlyReuse},
      {"kill-renderer", FaultKind::KillRenderer},
-     {"crash-renderer", FaultKind::CrashRenderer}}};
+     {"crash-renderer", FaultKind::CrashRenderer},
+     {"stop-renderer", FaultKind::StopRenderer}}};
 
 struct FaultPlan {
     FaultKind kind{};
@@ -46,7 +48,7 @@ struct FaultPlan {
 
 /// A fault of the renderer's process: IsolationConfig takes it, FluidHostConfig does not.
 [[nodiscard]] constexpr bool ofProcess(FaultKind kind) {
-    return kind == FaultKind::KillRenderer || kind == FaultKind::CrashRenderer;
+    return kind == FaultKind::KillRenderer || kind == FaultKind::CrashRenderer || kind == FaultKind::StopRenderer;
 }
 
 /// Duplicate and Swap are about signals, and the renderer's are its own; EarlyReuse is about the host's wait.

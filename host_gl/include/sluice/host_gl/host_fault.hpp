@@ -26,6 +26,8 @@ inline constexpr std::array<std::pair<std::string_view, HostFaultKind>, 6> kHost
      {"out-of-memory", HostFaultKind::OutOfMemory},
      {"context-lost", HostFaultKind::ContextLost}}};
 
+inline constexpr std::uint64_t kHangMs = 3000;
+
 struct HostFault {
     HostFaultKind kind{};
     std::uint64_t frame = 0;  ///< calls of FluidHost::submit, from 1

@@ -31,6 +31,8 @@ class PluginLibrary {
     /// ABI 1.0 are there. Stays where it is when the library is moved.
     [[nodiscard]] const SluiceRendererApi& api() const { return *api_; }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+    /// Of an isolated plugin's calls.
+    [[nodiscard]] const CallLimits& limits() const { return limits_; }
 
   private:
     PluginLibrary() = default;
@@ -38,6 +40,7 @@ class PluginLibrary {
     std::shared_ptr<Isolation> isolation_;  ///< null when loaded here
     std::unique_ptr<const SluiceRendererApi> api_;
     std::filesystem::path path_;
+    CallLimits limits_;
 };
 
 }  // namespace sluice::host
