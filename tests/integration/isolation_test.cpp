@@ -191,6 +191,14 @@ TEST_F(IsolationTest, MoreParticlesThanTheDeviceTakesAreRefusedBeforeOneIsRead) 
     particles.radius = 0.1F;
     particles.position = static_cast<const float*>(page);
     const Status refused = host_->setParticles(particles);
+    auto simulation = sized<SluiceSimulation>();
+    simulation.particle_count = UINT32_MAX;
+    simulation.position = static_cast<const float*>(page);
+    EXPECT_THAT(host_->setSimulation(&simulation).error().message(), HasSubstr("expected at most"));
+    simulation.particle_count = 1;
+    simulation.solid_count = UINT32_MAX;
+    simulation.solids = static_cast<const SluiceSolid*>(page);
+    EXPECT_THAT(host_->setSimulation(&simulation).error().message(), HasSubstr("expected at most"));
     ::munmap(page, 4096);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, SLUICE_ERROR_UNSUPPORTED);

@@ -510,9 +510,9 @@ typedef struct SluiceRendererApi {
     SluiceResult (*set_environment)(SluiceRenderer* renderer, const SluiceEnvironment* environment, SluiceError* error);
 
     /* Record and submit frame k. Returns without waiting for the device (FINISH excepted; and where simulation and
-     * frames share one queue, a frame that draws a value waits until the last work of that value has been submitted).
-     * On failure the fluid images of that set are undefined and signal_value is never signalled by this frame: the host
-     * composes without fluid. */
+     * frames share one queue, a frame that draws a value waits until the last work of that value has been submitted,
+     * and is refused after ten seconds). On failure the fluid images of that set are undefined and signal_value is
+     * never signalled by this frame: the host composes without fluid. */
     SluiceResult (*submit_frame)(SluiceRenderer* renderer, const SluiceFrame* frame, SluiceError* error);
 
     /* Statistics of a submitted frame; SLUICE_NOT_READY until it finished. Kept for the last image_sets frames. */
@@ -539,13 +539,14 @@ typedef struct SluiceRendererApi {
      * own. Its timeline starts at 0 and reaches v when the fluid of value v lies in an output slot on the device. A
      * ring of frames_in_flight + 1 slots is what frames are drawn from; no particle passes through the CPU. */
 
-    /* Replace the simulation; NULL ends it. Waits for the frames in flight. The fluid stands still until simulate. On
-     * failure there is none. */
+    /* Replace the simulation; NULL ends it. Waits for the frames in flight and the step under way. The fluid stands
+     * still until simulate. On failure there is none. */
     SluiceResult (*set_simulation)(SluiceRenderer* renderer, const SluiceSimulation* simulation, SluiceError* error);
 
-    /* Let the fluid flow for `seconds` more (0: not at all) and call the result `value`, from 1 without gaps. Returns
-     * at once. The value frames_in_flight + 1 before can be drawn no more; its slot is overwritten when the frames that
-     * draw it have ended. A step that fails is told by simulation_stats and by one line of the log. */
+    /* Let the fluid flow for `seconds` more (0: not at all; below 1/1024 of longest_step: the fluid looks the
+     * same and the next value has it) and call the result `value`, from 1 without gaps. Returns at once. The value
+     * frames_in_flight + 1 before can be drawn no more; its slot is overwritten when the frames that draw it have
+     * ended. A step that fails is told by simulation_stats and by one line of the log. */
     SluiceResult (*simulate)(SluiceRenderer* renderer, uint64_t value, double seconds, SluiceError* error);
 
     /* Any thread. Until the timeline has reached `value`, or SLUICE_TIMEOUT. */
