@@ -121,7 +121,7 @@ class Reader {
             return false;
         }
         body_sum_ = 0;
-        const std::uint32_t wanted = readNumber<std::uint32_t>(head.data() + kBodySumAt);
+        const auto wanted = readNumber<std::uint32_t>(head.data() + kBodySumAt);
         if (readBody(type, start, size)) {
             return sumFits(start + kChunkHeaderBytes, "the contents of a chunk", wanted, body_sum_);
         }
