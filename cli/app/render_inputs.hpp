@@ -30,7 +30,7 @@ struct RenderInputs {
     /// The particles of the first frame, kept from the check so that they are not read twice; the frame takes them.
     std::optional<LoadedParticles> first;
     std::vector<host::MovingBody> bodies;  ///< of the frame in hand
-    std::optional<LiveFluid> live;  ///< in the place of particle files
+    std::optional<LiveFluid> live;         ///< in the place of particle files
 };
 
 /// The scene with the command line's overrides. Reads the scene file only. A scene without particles whose simulation

@@ -75,8 +75,8 @@ struct LogSummary {
 /// absurd size, a checksum that does not fit, an unknown kind, an id out of bounds, anything after the close) name the
 /// file, the offset, the expected and the found; the sink may have had what stands before, and events of the damaged
 /// chunk. A log that ends in the middle of a chunk is read up to there, without that chunk's checksum, and is
-/// Truncated. Events get their place in the log as their sequence, whatever the file says. Bounds: actor ids below 1,024 (a clock has an entry per
-/// actor), sync and resource ids below 2^24, names of at most 1,024 bytes, whose
+/// Truncated. Events get their place in the log as their sequence, whatever the file says. Bounds: actor ids below
+/// 1,024 (a clock has an entry per actor), sync and resource ids below 2^24, names of at most 1,024 bytes, whose
 /// control characters become '?'.
 [[nodiscard]] Result<LogSummary> readLog(const std::string& path, const LogSink& sink);
 /// The same from memory; `name` stands for the file in errors.
