@@ -42,12 +42,13 @@ std::vector<SluiceSolid> solidsOf(const simulator::Setup& setup) {
 }
 
 /// What `sluice simulate` knows and the C ABI does not.
-Status checkCrosses(const simulator::Setup& setup) {
-    const std::array<std::pair<const char*, std::size_t>, 7> all{
+Status checkCrosses(const simulator::Setup& setup, std::size_t meshes) {
+    const std::array<std::pair<const char*, std::size_t>, 8> all{
         {{"emitters", setup.emitters.size()},
          {"drains", setup.drains.size()},
          {"fields", setup.fields.size()},
          {"bodies", setup.bodies.size()},
+         {"meshes", meshes},
          {"tension", setup.tension != 0.0F ? 1U : 0U},
          {"adhesion", setup.adhesion != 0.0F ? 1U : 0U},
          {"overshoot", setup.overshoot != scene::Simulation{}.overshoot ? 1U : 0U}}};
@@ -79,7 +80,7 @@ bool simulatesLive(const scene::Scene& scene) {
 
 Result<LiveFluid> liveFluid(const scene::Scene& scene, std::uint64_t seed, std::uint32_t frames_in_flight) {
     const simulator::Setup setup = simulationSetup(scene);
-    if (Status status = checkCrosses(setup); !status) {
+    if (Status status = checkCrosses(setup, scene.simulation.meshes.size()); !status) {
         return status.error();
     }
     Result<simulator::Particles> start = startOfFluid(scene.simulation, setup, seed);

@@ -9,6 +9,7 @@
 #include "app/file_roles.hpp"
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
+#include "app/mesh_files.hpp"
 #include "app/output_folders.hpp"
 #include "app/outputs.hpp"
 #include "app/simulate_setup.hpp"
@@ -161,7 +162,11 @@ int simulate(const SimulateOptions& options) {
         return kExitUsage;
     }
     const scene::Simulation& settings = scene.value().simulation;
-    const simulator::Setup setup = simulationSetup(scene.value());
+    simulator::Setup setup = simulationSetup(scene.value());
+    if (const Status status = loadMeshes(setup, settings); !status) {
+        logError(status.error());
+        return kExitBadInput;
+    }
     Result<simulator::Particles> start = startOfFluid(settings, setup, options.seed);
     if (!start) {
         Error error = start.error();

@@ -200,6 +200,12 @@ void visitSimulation(Visitor& v, Simulation& s) {
         o.numbers("normal", plane.normal, Range{-kWorld, kWorld});
         o.numbers("through", plane.through, kAnyLength);
     });
+    v.list("meshes", s.meshes, [](auto& o, SolidMesh& mesh) {
+        o.text("path", mesh.path);
+        o.numbers("position", mesh.position, kAnyLength);
+        o.number("turn_degrees", mesh.turn_degrees, kDegrees);
+        o.number("scale", mesh.scale, kPositiveLength);
+    });
     visitSources(v, s);
     visitBodies(v, s);
 }

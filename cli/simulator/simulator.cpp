@@ -65,10 +65,24 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
         s.bodies.push_back(std::move(body));
     }
     s.sources.most_particles = setup.most_particles;
+    s.meshes = setup.meshes;
     return s;
 }
 
 }  // namespace
+
+Status addMeshes(Setup& setup, std::span<const Mesh> meshes) {
+    std::vector<vk::Mesh> all;
+    for (const Mesh& mesh : meshes) {
+        all.push_back({mesh.name, mesh.corners, mesh.triangles});
+    }
+    Result<vk::DistanceGrid> grid = vk::distanceGrid(all, setup.radius, setup.low, setup.high);
+    if (!grid) {
+        return grid.error();
+    }
+    setup.meshes = std::make_shared<const vk::DistanceGrid>(std::move(grid).value());
+    return {};
+}
 
 std::vector<double> clearances(const Setup& setup, const std::vector<float>& positions) {
     const vk::SimulationSettings settings = settingsOf(setup);
@@ -82,6 +96,9 @@ std::vector<double> clearances(const Setup& setup, const std::vector<float>& pos
         }
         for (const vk::Solid& solid : settings.solids) {
             nearest = std::min(nearest, vk::distanceTo(solid, x));
+        }
+        if (settings.meshed()) {
+            nearest = std::min(nearest, vk::contactWith(*settings.meshes, vk::wide(x)).distance);
         }
         for (const vk::Body& body : settings.bodies) {
             nearest = std::min(nearest, vk::distanceTo(vk::solidOf(body, vk::startOf(body)), x));

@@ -5,11 +5,16 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "sluice/result.hpp"
+
+namespace sluice::vk {
+struct DistanceGrid;
+}
 
 namespace sluice::simulator {
 
@@ -29,6 +34,13 @@ struct Box {
 };
 struct Plane {
     Vec3 normal, through;
+};
+
+/// In the world; counter-clockwise as seen from outside.
+struct Mesh {
+    std::string name;  ///< for messages
+    std::vector<std::array<double, 3>> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 /// Where particles are born, die and are blown; as the solver's own sources.hpp has them.
@@ -77,6 +89,7 @@ struct Setup {
     std::vector<Capsule> capsules;
     std::vector<Box> boxes;
     std::vector<Plane> planes;
+    std::shared_ptr<const vk::DistanceGrid> meshes;  ///< of addMeshes; may be none
     std::vector<Emitter> emitters;
     std::vector<Drain> drains;
     std::vector<ForceField> fields;
@@ -99,6 +112,10 @@ struct Advance {
     double greatest_density = 0.0;
     std::uint64_t born = 0, blocked = 0, drained = 0;  ///< particles
 };
+
+/// Makes the meshes solids of a setup whose radius and domain are final. Refused, with the mesh named, unless each is a
+/// closed surface.
+[[nodiscard]] Status addMeshes(Setup& setup, std::span<const Mesh> meshes);
 
 /// Distance from each position (triples) to the nearest solid, body or face of the domain, metres; negative where no
 /// fluid may be.

@@ -4,6 +4,7 @@
 // Moves each particle as its own lambda and its neighbours' ask (Macklin & Mueller 2013, eqs. 13 and 14), and out of the
 // solids. What i does to j, j does to i: without walls the sum of all moves is zero to round-off.
 #define BODIES_BINDING 6
+#define MESH_BINDING 8
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;

@@ -4,6 +4,7 @@
 // XSPH viscosity (Schechter & Bridson 2012), vorticity confinement, surface tension (Akinci et al. 2013), and the end of the step: the state that the next one
 // starts from, with what the host judges it by.
 #define BODIES_BINDING 10
+#define MESH_BINDING 13
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;
@@ -49,6 +50,10 @@ vec3 adhesionAt(vec3 x) {
         if (BODIES == 1u && k >= p.change.w && d.w < p.high.w) {
             addPush(k - p.change.w, x, to_solid * (p.gravity.w * p.gravity.w));
         }
+    }
+    if (MESH == 1u) {
+        const vec4 d = distanceToMesh(x);
+        pull += d.xyz * -attraction(d.w);
     }
     return pull;
 }

@@ -6,6 +6,7 @@
 // The order of arrival is left to chance and forgotten in order.comp.
 #define SOURCES_BINDING 7
 #define BODIES_BINDING 8
+#define MESH_BINDING 10
 #include "solids.glsl"
 #include "sources.glsl"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Solids as analytic signed distances. Exact for spheres, capsules, planes and the faces of boxes.
+// Solids as analytic signed distances. Exact for spheres, capsules, planes and the faces of boxes. Meshes as a grid of
+// distances, for passes that have defined MESH_BINDING.
 #ifndef SLUICE_SOLIDS_GLSL
 #define SLUICE_SOLIDS_GLSL
 #include "simulation.glsl"
@@ -39,6 +40,38 @@ vec4 distanceTo(uint k, vec3 x) {
     return vec4(unitOr(away, vec3(0, 1, 0)), length(away) - s.b.w);
 }
 
+#ifdef MESH_BINDING
+layout(constant_id = 3) const uint MESH = 0u;
+// DistanceGrid of renderer_vk/src/simulation/distance_grid.hpp.
+layout(std430, set = 0, binding = MESH_BINDING) readonly buffer Mesh {
+    vec4 mesh_low;    // where the first node is; w = 1 / spacing
+    uvec4 mesh_size;  // xyz = nodes along each axis
+    float mesh_node[];
+};
+
+// As distanceTo, between the nodes of the grid: all meshes of the scene. Far away outside it.
+vec4 distanceToMesh(vec3 x) {
+    const vec3 at = (x - mesh_low.xyz) * mesh_low.w;
+    if (any(lessThan(at, vec3(0))) || any(greaterThan(at, vec3(mesh_size.xyz - 1u)))) {
+        return vec4(0, 1, 0, 1e9);
+    }
+    const uvec3 cell = min(uvec3(at), mesh_size.xyz - 2u);
+    const vec3 part = at - vec3(cell);
+    const uint first = (cell.z * mesh_size.y + cell.y) * mesh_size.x + cell.x;
+    const uint up = mesh_size.x;
+    const uint away = mesh_size.x * mesh_size.y;
+    const vec4 low = vec4(mesh_node[first], mesh_node[first + up], mesh_node[first + away], mesh_node[first + up + away]);
+    const vec4 high = vec4(mesh_node[first + 1u], mesh_node[first + up + 1u], mesh_node[first + away + 1u],
+                           mesh_node[first + up + away + 1u]);
+    const vec4 along = mix(low, high, part.x);
+    const vec4 slope = high - low;
+    const vec2 across = mix(along.xz, along.yw, part.y);
+    const vec3 normal = vec3(mix(mix(slope.x, slope.y, part.y), mix(slope.z, slope.w, part.y), part.z),
+                             mix(along.y - along.x, along.w - along.z, part.z), across.y - across.x);
+    return vec4(unitOr(normal, vec3(0, 1, 0)), mix(across.x, across.y, part.z));
+}
+#endif
+
 // The nearest place where a particle's centre may be: a radius away from every solid, and within the domain whatever
 // the solids say.
 vec3 collided(vec3 x) {
@@ -52,6 +85,12 @@ vec3 collided(vec3 x) {
 #endif
         x += push;
     }
+#ifdef MESH_BINDING
+    if (MESH == 1u) {  // the grid ends with the domain
+        const vec4 d = distanceToMesh(clamp(x, p.low.xyz + p.low.w, p.high.xyz - p.low.w));
+        x += d.xyz * max(p.low.w - d.w, 0.0);
+    }
+#endif
     return clamp(x, p.low.xyz + p.low.w, p.high.xyz - p.low.w);
 }
 
@@ -89,6 +128,12 @@ vec4 wallsAt(vec3 x) {
         const vec4 d = distanceTo(k, x);
         walls = withWall(walls, d.xyz, d.w);
     }
+#ifdef MESH_BINDING
+    if (MESH == 1u) {
+        const vec4 d = distanceToMesh(x);
+        walls = withWall(walls, d.xyz, d.w);
+    }
+#endif
     return walls;
 }
 #ifdef BODIES_BINDING

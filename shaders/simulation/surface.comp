@@ -4,6 +4,7 @@
 // What surface tension asks of each particle: h times the gradient of the density's colour field, which is the inward normal
 // of the surface and about zero within, and the density (Akinci et al. 2013). Fluid at rest stands for walls, so that a wall
 // is no surface.
+#define MESH_BINDING 5
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;

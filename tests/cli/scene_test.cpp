@@ -42,6 +42,7 @@ TEST(SceneFile, EveryKeyIsRead) {
                        "capsules": [{"from": [1, 2, 3], "to": [4, 5, 6], "radius": 0.25}],
                        "boxes": [{"centre": [1, 2, 3], "half": [1, 2, 3], "turn_degrees": 30}],
                        "planes": [{"normal": [0, 1, 0], "through": [0, -1, 0]}],
+                       "meshes": [{"path": "m.obj", "position": [1, 2, 3], "turn_degrees": 30, "scale": 0.5}],
                        "emitters": [{"shape": "box", "centre": [0, 1, 0], "direction": [0, -1, 1], "width": 0.1, "height": 0.2,
                                      "speed": 2, "rate": 0, "start": 0.5, "stop": 3}],
                        "drains": [{"shape": "sphere", "centre": [1, 0, 1], "half": [0.5, 0.5, 0.5]}],
@@ -86,6 +87,9 @@ TEST(SceneFile, EveryKeyIsRead) {
     EXPECT_EQ(s.simulation.capsules[0].to, (Vec3{4, 5, 6}));
     ASSERT_EQ(s.simulation.boxes.size(), 1U);
     EXPECT_EQ(s.simulation.boxes[0].turn_degrees, 30.0F);
+    ASSERT_EQ(s.simulation.meshes.size(), 1U);
+    EXPECT_EQ(s.simulation.meshes[0].path, "m.obj");
+    EXPECT_EQ(s.simulation.meshes[0].scale, 0.5F);
     ASSERT_EQ(s.simulation.emitters.size(), 1U);
     EXPECT_EQ(s.simulation.emitters[0].shape, kEmitterBox);
     EXPECT_EQ(s.simulation.emitters[0].stop, 3.0F);

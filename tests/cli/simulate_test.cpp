@@ -49,6 +49,38 @@ TEST_F(Simulate, RangesOfOneRunByTwoProcessesAreTheSameFiles) {
     EXPECT_NE(simulate("s.json -o other_##.pos --frames 4..4 --seed 2")["replay_hash"], whole["replay_hash"]);
 }
 
+TEST_F(Simulate, AMeshKeepsTheFluidOutAndAnOpenOneIsRefused) {
+    const auto scene = [](const std::string& solid) {
+        return R"({"simulation": {"radius": 0.05, "collide_with_engine": false,
+                   "fluid": [{"low": [-0.4, 0.2, -0.4], "high": [0.4, 1, 0.4], "velocity": [0, 0, 0]}], )" +
+               solid + "}}";
+    };
+    const std::string corners = "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n";
+    const std::string faces = "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\n";
+    std::filesystem::create_directory(at("models"));
+    write("models/cube.obj", corners + faces + "f 5 6 8 7\n");
+    write("mesh.json", scene(R"("meshes": [{"path": "models/cube.obj", "position": [0, 0.4, 0], "turn_degrees": 30,
+                                           "scale": 0.2}])"));
+    write("box.json", scene(R"("boxes": [{"centre": [0, 0.4, 0], "half": [0.2, 0.2, 0.2], "turn_degrees": 30}])"));
+    const nlohmann::json mesh = simulate("mesh.json -o mesh_##.ply --frames 1..3 --validation");
+    const nlohmann::json box = simulate("box.json -o box_##.ply --frames 1..3");
+    EXPECT_EQ(mesh["validation_messages"], 0);
+    // Of 8 x 8 x 8 particles the cube has taken its own volume, as the box has but for its edges.
+    EXPECT_LT(box["particles"]["count"], 470);
+    EXPECT_NEAR(mesh["particles"]["count"].get<double>(), box["particles"]["count"].get<double>(), 16.0);
+    EXPECT_NE(mesh["replay_hash"], box["replay_hash"]);
+    write("models/cube.obj", corners + faces);
+    const Outcome open = run("simulate mesh.json -o open.ply");
+    EXPECT_EQ(open.code, 2);
+    EXPECT_THAT(open.err, AllOf(HasSubstr("models/cube.obj: expected a closed surface"), HasSubstr("Fill Holes")));
+    write("none.json",
+          scene(R"("meshes": [{"path": "none.obj", "position": [0, 0, 0], "turn_degrees": 0, "scale": 1}])"));
+    EXPECT_THAT(run("simulate none.json -o none.ply").err, HasSubstr("none.obj: No such file"));
+    const Outcome live = run("render mesh.json -o live.png");
+    EXPECT_EQ(live.code, 2);
+    EXPECT_THAT(live.err, HasSubstr("/simulation/meshes"));
+}
+
 TEST_F(Simulate, SaysWhatItDidAndWhereTheTimeWent) {
     writeFluid("s.json");
     const Outcome outcome = run("simulate s.json -o f_##.pos --frames 1..2");

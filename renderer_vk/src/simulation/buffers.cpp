@@ -74,6 +74,7 @@ SlotSize sizeOf(Slot slot, const SimulationBuffers& b) {
             return {"simulation pushes", kPushBytes};
         case Slot::Status:
         case Slot::Count:
+        case Slot::Meshes:
             break;
     }
     return {"simulation status", sizeof(StepStatus)};

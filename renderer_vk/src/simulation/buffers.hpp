@@ -41,7 +41,8 @@ enum class Slot : std::uint8_t {
     Bodies,
     Pushes,
     Status,
-    Count
+    Count,
+    Meshes  ///< none of these: the solver makes it once
 };
 inline constexpr std::size_t kSlots = static_cast<std::size_t>(Slot::Count);
 

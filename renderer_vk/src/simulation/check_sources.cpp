@@ -66,7 +66,7 @@ Status checkFlow(const Emitter& e, const std::string& thing, std::size_t sites, 
 }
 
 Status checkSites(std::span<const Triple> sites, const std::string& thing, float radius, const Triple& low,
-                  const Triple& high, std::span<const Solid> solids) {
+                  const Triple& high, std::span<const Solid> solids, const DistanceGrid* meshes) {
     for (const Triple& x : sites) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (x[axis] < low[axis] + 0.5F * radius || x[axis] > high[axis] - 0.5F * radius) {
@@ -78,6 +78,9 @@ Status checkSites(std::span<const Triple> sites, const std::string& thing, float
             if (distanceTo(solids[k], x) < 0.5 * double{radius}) {
                 return wrong(thing, fmt::format("an opening outside solid {}", k), shown(x));
             }
+        }
+        if (meshes != nullptr && contactWith(*meshes, wide(x)).distance < 0.5 * double{radius}) {
+            return wrong(thing, "an opening outside the meshes", shown(x));
         }
     }
     return {};
@@ -110,7 +113,7 @@ Status checkField(const ForceField& f, const std::string& thing) {
 }  // namespace
 
 Status checkSources(const SourceSettings& s, float radius, const Triple& low, const Triple& high,
-                    std::span<const Solid> solids) {
+                    std::span<const Solid> solids, const DistanceGrid* meshes) {
     for (const auto& [what, number, most] : {std::tuple{"emitters", s.emitters.size(), kMaxEmitters},
                                              {"drains", s.drains.size(), kMaxDrains},
                                              {"fields", s.fields.size(), kMaxFields}}) {
@@ -127,7 +130,7 @@ Status checkSources(const SourceSettings& s, float radius, const Triple& low, co
         if (Status status = checkFlow(s.emitters[i], thing, sites.size(), radius); !status) {
             return status;
         }
-        if (Status status = checkSites(sites, thing, radius, low, high, solids); !status) {
+        if (Status status = checkSites(sites, thing, radius, low, high, solids, meshes); !status) {
             return status;
         }
     }

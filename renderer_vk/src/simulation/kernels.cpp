@@ -47,11 +47,12 @@ struct KernelDesc {
 
 std::vector<KernelDesc> descriptions(const Features& features) {
     using enum Slot;
-    const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}};
+    const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}, {Meshes}};
     const std::uint32_t bodies = features.bodies ? 1 : 0;
-    const std::vector<Use> finish{texels(Sorted), texels(Moving),  texels(Curl),  texels(List),
-                                  {ListCount},    {Before},        {PositionOut}, {VelocityOut},
-                                  {Status},       uniform(Bodies), {Pushes},      texels(Walls)};
+    const std::uint32_t meshes = features.meshes ? 1 : 0;
+    const std::vector<Use> finish{texels(Sorted), texels(Moving), texels(Curl),  texels(List), {ListCount},
+                                  {Before},       {PositionOut},  {VelocityOut}, {Status},     uniform(Bodies),
+                                  {Pushes},       texels(Walls),  {Meshes}};
     return {
         {Kernel::Predict,
          simulation_predict_comp,
@@ -63,8 +64,9 @@ std::vector<KernelDesc> descriptions(const Features& features) {
           {Status},
           uniform(Sources),
           uniform(Bodies),
-          {Pushes}},
-         {features.fields ? 1U : 0U, bodies}},
+          {Pushes},
+          {Meshes}},
+         {features.fields ? 1U : 0U, bodies, 0, meshes}},
         {Kernel::ScanSums, simulation_scan_sums_comp, {{Cells}, {Sums}}},
         {Kernel::ScanBlocks, simulation_scan_blocks_comp, {{Sums}}},
         {Kernel::ScanCells, simulation_scan_cells_comp, {{Cells}, {Sums}}},
@@ -85,19 +87,22 @@ std::vector<KernelDesc> descriptions(const Features& features) {
         {Kernel::Neighbours,
          simulation_neighbours_comp,
          {texels(Sorted), texels(Cells), {List}, {ListCount}, {Status}}},
-        {Kernel::Lambda, simulation_lambda_comp, lambda},
-        {Kernel::Measure, simulation_lambda_comp, lambda, {1}},
+        {Kernel::Lambda, simulation_lambda_comp, lambda, {0, 0, 0, meshes}},
+        {Kernel::Measure, simulation_lambda_comp, lambda, {1, 0, 0, meshes}},
         {Kernel::Delta,
          simulation_delta_comp,
-         {texels(Pushed), texels(List), {ListCount}, {Walls}, {Sorted}, uniform(Bodies), {Pushes}},
-         {0, bodies}},
+         {texels(Pushed), texels(List), {ListCount}, {Walls}, {Sorted}, uniform(Bodies), {Pushes}, {Meshes}},
+         {0, bodies, 0, meshes}},
         {Kernel::Velocity, simulation_velocity_comp, {{Sorted}, {Before}, {Moving}}},
         {Kernel::Curl, simulation_curl_comp, {texels(Sorted), texels(Moving), texels(List), {ListCount}, {Slot::Curl}}},
-        {Kernel::Surface, simulation_surface_comp, {texels(Sorted), texels(List), {ListCount}, {Slot::Walls}}},
+        {Kernel::Surface,
+         simulation_surface_comp,
+         {texels(Sorted), texels(List), {ListCount}, {Slot::Walls}, {Meshes}},
+         {0, 0, 0, meshes}},
         {Kernel::Finish,
          simulation_finish_comp,
          finish,
-         {features.confined ? 1U : 0U, bodies, features.tension ? 1U : 0U}},
+         {features.confined ? 1U : 0U, bodies, features.tension ? 1U : 0U, meshes}},
         {Kernel::Retire, simulation_retire_comp, {uniform(Sources), {Births}, {Blocked}, {PositionOut}, {Status}}},
         {Kernel::Born,
          simulation_born_comp,
@@ -129,16 +134,19 @@ constexpr std::array<const char*, kKernels> kNames{
     "predict", "scan_sums", "scan_blocks", "scan_cells", "depth",   "scatter", "order",  "neighbours", "lambda",
     "measure", "delta",     "velocity",    "curl",       "surface", "finish",  "retire", "born"};
 
-void write(const Device& device, VkDescriptorSet set, std::uint32_t binding, Use use,
-           const SimulationBuffers& buffers) {
-    const VkDescriptorBufferInfo buffer{buffers[use.slot].buffer(), 0, VK_WHOLE_SIZE};
+void write(const Device& device, VkDescriptorSet set, std::uint32_t binding, Use use, const SimulationBuffers& buffers,
+           const Buffer& meshes) {
+    const bool own = use.slot == Slot::Meshes;
+    const VkDescriptorBufferInfo buffer{own ? meshes.buffer() : buffers[use.slot].buffer(), 0, VK_WHOLE_SIZE};
     auto info = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     info.dstSet = set;
     info.dstBinding = binding;
     info.descriptorCount = 1;
     info.descriptorType = use.type;
     info.pBufferInfo = &buffer;
-    info.pTexelBufferView = &buffers.texels.at(static_cast<std::size_t>(use.slot)).handle;
+    if (!own) {
+        info.pTexelBufferView = &buffers.texels.at(static_cast<std::size_t>(use.slot)).handle;
+    }
     device.fn.vkUpdateDescriptorSets(device.handle, 1, &info, 0, nullptr);
 }
 
@@ -210,14 +218,14 @@ Kernels::~Kernels() {
     }
 }
 
-void Kernels::bind(const SimulationBuffers& buffers) const {
+void Kernels::bind(const SimulationBuffers& buffers, const Buffer& meshes) const {
     for (const KernelDesc& desc : descriptions(features_)) {
         for (std::size_t odd = 0; odd < 2; ++odd) {
             const VkDescriptorSet set = sets_.at(static_cast<std::size_t>(desc.kernel)).at(odd);
-            write(*device_, set, 0, {Slot::Parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, buffers);
+            write(*device_, set, 0, {Slot::Parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, buffers, meshes);
             for (std::uint32_t i = 0; i < desc.uses.size(); ++i) {
                 const Use use = desc.uses[i];
-                write(*device_, set, i + 1, odd == 1 ? Use{exchanged(use.slot), use.type} : use, buffers);
+                write(*device_, set, i + 1, odd == 1 ? Use{exchanged(use.slot), use.type} : use, buffers, meshes);
             }
         }
     }

@@ -45,6 +45,7 @@ struct Features {
     bool fields = false;           ///< force fields
     bool bodies = false;           ///< bodies that are pushed
     bool tension = false;          ///< surface tension or adhesion
+    bool meshes = false;           ///< solids of triangles
     std::uint32_t depth_axis = 1;  ///< along which depth is measured, where it is
 };
 
@@ -61,8 +62,8 @@ class Kernels {
     Kernels& operator=(const Kernels&) = delete;
     ~Kernels();
 
-    /// Points every set at `buffers`. No submitted work may use the sets.
-    void bind(const SimulationBuffers& buffers) const;
+    /// Points every set at `buffers` and the grid of the meshes. No submitted work may use the sets.
+    void bind(const SimulationBuffers& buffers, const Buffer& meshes) const;
     /// One dispatch of so many workgroups. `odd`: In and Out have changed places.
     void dispatch(VkCommandBuffer commands, Kernel kernel, bool odd, std::uint32_t groups) const;
 

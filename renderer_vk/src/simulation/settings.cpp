@@ -142,7 +142,11 @@ Status checkSettings(const SimulationSettings& s) {
     if (Status status = checkBodies(s.bodies, s.low, s.high); !status) {
         return status;
     }
-    return checkSources(s.sources, s.radius, s.low, s.high, s.solids);
+    if (s.meshed() && !s.bodies.empty()) {
+        return wrong("simulation: bodies", "none among meshes, which bodies do not meet",
+                     fmt::format("{}", s.bodies.size()));
+    }
+    return checkSources(s.sources, s.radius, s.low, s.high, s.solids, s.meshes.get());
 }
 
 Status checkParticles(const SimulationSettings& settings, std::span<const float> positions,
@@ -175,6 +179,9 @@ Status checkParticles(const SimulationSettings& settings, std::span<const float>
             if (distanceTo(settings.solids[solid], x) < 0.0) {
                 return wrong(thing, fmt::format("a position outside solid {}", solid), shown(x));
             }
+        }
+        if (settings.meshed() && contactWith(*settings.meshes, wide(x)).distance < 0.0) {
+            return wrong(thing, "a position outside the meshes", shown(x));
         }
     }
     return {};

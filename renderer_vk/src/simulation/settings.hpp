@@ -3,10 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "simulation/bodies.hpp"
+#include "simulation/distance_grid.hpp"
 #include "simulation/solid.hpp"
 #include "simulation/sources.hpp"
 #include "sluice/result.hpp"
@@ -32,7 +34,9 @@ struct SimulationSettings {
     std::vector<Solid> solids;
     SourceSettings sources;
     std::vector<Body> bodies;
+    std::shared_ptr<const DistanceGrid> meshes;  ///< may be none; not with bodies, which would not meet it
 
+    [[nodiscard]] bool meshed() const { return meshes != nullptr && !meshes->nodes.empty(); }
     [[nodiscard]] float support() const { return 4.0F * radius; }
 };
 

@@ -58,13 +58,18 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
     state->sources = sourceBlock(settings.sources);
     state->walls = wallsOf(settings);
     state->restartBodies();
-    Result<Kernels> kernels =
-        Kernels::create(device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty(),
-                                 settings.tension > 0.0F || settings.adhesion > 0.0F, deepestAxis(settings)});
+    Result<Kernels> kernels = Kernels::create(
+        device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty(),
+                 settings.tension > 0.0F || settings.adhesion > 0.0F, settings.meshed(), deepestAxis(settings)});
     if (!kernels) {
         return kernels.error();
     }
     state->kernels = std::move(kernels).value();
+    Result<Buffer> meshes = uploadMeshes(device, settings.meshed() ? *settings.meshes : DistanceGrid{});
+    if (!meshes) {
+        return meshes.error();
+    }
+    state->meshes = std::move(meshes).value();
     return std::unique_ptr<Solver>(new Solver(std::move(state)));
 }
 

@@ -26,6 +26,7 @@ struct Solver::State {
     Grid grid;
     Kernels kernels;
     SimulationBuffers buffers;
+    Buffer meshes;  ///< DistanceGrid as solids.glsl reads it
     StepTimer timer;
     std::vector<Solid> walls;       ///< faces of the domain and solids, for bodies
     std::vector<BodyState> bodies;  ///< at the start of the next step

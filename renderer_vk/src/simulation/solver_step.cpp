@@ -141,7 +141,7 @@ Result<StepReport> Solver::State::attempt(double seconds) {
         if (const Status grown = growLists(device, buffers, rows); !grown) {
             return grown.error();
         }
-        kernels.bind(buffers);
+        kernels.bind(buffers, meshes);
     }
 }
 

@@ -7,6 +7,8 @@ list(APPEND SLUICE_VK_SOURCES
     src/simulation/kernels.cpp
     src/simulation/check_sources.cpp
     src/simulation/depth.cpp
+    src/simulation/distance_grid.cpp
+    src/simulation/mesh.cpp
     src/simulation/parameters.cpp
     src/simulation/settings.cpp
     src/simulation/solid.cpp

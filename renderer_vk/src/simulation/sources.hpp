@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "simulation/distance_grid.hpp"
 #include "simulation/solid.hpp"
 #include "sluice/result.hpp"
 
@@ -70,9 +71,10 @@ void addBirths(const Emitter& emitter, std::span<const Triple> sites, float radi
 /// Greatest acceleration of all fields together, m/s^2.
 [[nodiscard]] double strongest(std::span<const ForceField> fields);
 
-/// The first that is out of its range, named. `low` and `high` are the domain, `solids` all of them.
+/// The first that is out of its range, named. `low` and `high` are the domain, `solids` all of them, `meshes` may be
+/// null.
 [[nodiscard]] Status checkSources(const SourceSettings& sources, float radius, const Triple& low, const Triple& high,
-                                  std::span<const Solid> solids);
+                                  std::span<const Solid> solids, const DistanceGrid* meshes = nullptr);
 
 /// Mirrors shaders/simulation/sources.glsl.
 struct SourceBlock {

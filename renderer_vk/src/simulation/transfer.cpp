@@ -82,6 +82,25 @@ Result<std::vector<std::uint32_t>> identities(const Device& device, const Simula
 
 }  // namespace
 
+Result<Buffer> uploadMeshes(const Device& device, const DistanceGrid& grid) {
+    std::vector<float> content(8);
+    const auto low = narrow(grid.low);
+    std::copy(low.begin(), low.end(), content.begin());
+    content[3] = grid.spacing > 0.0 ? static_cast<float>(1.0 / grid.spacing) : 0.0F;
+    std::memcpy(&content[4], grid.size.data(), sizeof grid.size);
+    content.insert(content.end(), grid.nodes.begin(), grid.nodes.end());
+    content.resize(std::max<std::size_t>(content.size(), 9));
+    Result<Buffer> made = Buffer::create(
+        device, {content.size() * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                 BufferPlace::Device, "simulation meshes"});
+    if (made) {
+        if (Status status = upload(device, made.value(), content); !status) {
+            return status.error();
+        }
+    }
+    return made;
+}
+
 Status uploadParticles(const Device& device, const SimulationBuffers& buffers, std::span<const float> positions,
                        std::span<const float> velocities) {
     const std::size_t count = positions.size() / 3;

@@ -81,6 +81,14 @@ struct SolidPlane {
     Vec3 normal, through;
 };
 
+/// A closed surface of triangles from a file.
+struct SolidMesh {
+    std::string path;    ///< OBJ, resolved against the scene file
+    Vec3 position;       ///< of the file's origin
+    float turn_degrees;  ///< about +y, after scaling
+    float scale;
+};
+
 /// A nozzle. docs/simulation.md says where its particles leave it, and when.
 struct Emitter {
     std::uint32_t shape = 0;  ///< kEmitterDisc, kEmitterBox
@@ -140,6 +148,7 @@ struct Simulation {
     std::vector<SolidCapsule> capsules;
     std::vector<SolidBox> boxes;
     std::vector<SolidPlane> planes;
+    std::vector<SolidMesh> meshes;
     std::vector<Emitter> emitters;
     std::vector<Drain> drains;
     std::vector<ForceField> fields;
