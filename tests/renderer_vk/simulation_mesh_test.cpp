@@ -169,8 +169,9 @@ TEST(DistanceGrid, RefusesWhatIsNoClosedSurfaceAndSaysWhere) {
     EXPECT_THAT(refusal(bad), HasSubstr("triangle 3 with corner 9 of 8"));
     Mesh thin = box;
     thin.corners.push_back({0, -0.5, -0.5});  // in the midst of the edge from 0 to 1
-    thin.triangles.push_back({0, 8, 1});
-    thin.triangles.push_back({1, 8, 0});
+    thin.triangles[9] = {1, 8, 3};            // was 0, 3, 1
+    thin.triangles.push_back({8, 0, 3});
+    thin.triangles.push_back({1, 0, 8});
     EXPECT_THAT(refusal(thin), HasSubstr("without an area"));
     EXPECT_THAT(refusal(box, 0.001F), HasSubstr("nodes, 0.002"));
     // Corners that a file repeats, as it does where texture coordinates part, are one.

@@ -258,7 +258,7 @@ SolidContact contactWith(const DistanceGrid& grid, const Vector& x) {
         for (std::size_t i = 0; i < 3; ++i) {
             weight[i] = up.at(i) == 1 ? part[i] : 1.0 - part[i];
         }
-        const double value =
+        const auto value =
             double{grid.nodes[((cell[2] + up[2]) * grid.size[1] + cell[1] + up[1]) * grid.size[0] + cell[0] + up[0]]};
         contact.distance += weight[0] * weight[1] * weight[2] * value;
         for (std::size_t i = 0; i < 3; ++i) {
