@@ -122,7 +122,7 @@ Result<host::HostFault> parseHostFault(std::string_view text) {
     const std::string_view name = what.substr(0, what.find('/'));
     const auto* kind = std::find_if(host::kHostFaultNames.begin(), host::kHostFaultNames.end(),
                                     [&](const auto& one) { return one.first == name; });
-    if (kind == host::kHostFaultNames.end() || text.find('@') == std::string_view::npos) {
+    if (kind == host::kHostFaultNames.end() || text.substr(what.size(), 1) != "@") {
         return badValue("--fault", "KIND@FRAME[=VALUE] of a host fault (docs/cli.md)", text);
     }
     if (name != what) {

@@ -94,7 +94,8 @@ INSTANTIATE_TEST_SUITE_P(
         Case{HostFaultKind::PluginError, 1, "fff-ffffffffff", 1, "submit_frame fails and says no more"},
         Case{HostFaultKind::PluginError, 2, "fff--fffffffff", 2, "useless from frame"},
         Case{HostFaultKind::Hang, 300, "ffffffffffffff", 1, nullptr},
-        Case{HostFaultKind::OutOfFds, 1, "fff---ffffffff", 2, "file descriptors 0 are free (close some"},
+        Case{HostFaultKind::OutOfFds, 1, "fff---ffffffff", 2,
+             "file descriptors 0 are free, for the injected fault has lowered their limit"},
         Case{HostFaultKind::OutOfMemory, 1, "fff---ffffffff", 2, "create finds no memory"},
         Case{HostFaultKind::ContextLost, 0, "fff-----------", 1, "create another context"}),
     [](const auto& param) {

@@ -154,7 +154,8 @@ void PrintTo(const Lie& lie, std::ostream* to) {
 class SharedMemory : public LedgerTest, public ::testing::WithParamInterface<Lie> {};
 
 TEST_P(SharedMemory, IsJudgedLiveAsItIsFromItsLog) {
-    const std::string path = std::filesystem::path(::testing::TempDir()) / "shared.sluicelog";
+    const std::string path =
+        std::filesystem::path(::testing::TempDir()) / (std::string("shared_") + GetParam().name + ".sluicelog");
     auto writer = ledger::LogWriter::create(path);
     ASSERT_TRUE(writer) << writer.error().message();
     control_->image_lie = GetParam().image;
