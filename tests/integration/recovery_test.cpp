@@ -112,13 +112,19 @@ TEST_F(RecoveryTest, ARendererThatKeepsFailingIsGivenUpAfterItsTriesAndSaidOnceE
     complaints_.clear();
 }
 
-TEST_F(RecoveryTest, TheNewRendererGetsTheScene) {
-    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
-    std::vector<float> positions(std::size_t{3} * 7, 0.25F);
+/// The first seven triples of `positions`, which must outlive it.
+SluiceParticles sevenAt(const std::vector<float>& positions) {
     auto particles = sized<SluiceParticles>();
     particles.count = 7;
     particles.radius = 0.5F;
     particles.position = positions.data();
+    return particles;
+}
+
+TEST_F(RecoveryTest, TheNewRendererGetsTheScene) {
+    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
+    std::vector<float> positions(std::size_t{3} * 7, 0.25F);
+    SluiceParticles particles = sevenAt(positions);
     const std::vector<float> pixels(std::size_t{3} * 2, 0.5F);
     auto environment = sized<SluiceEnvironment>();
     environment.width = 2;
@@ -143,10 +149,7 @@ TEST_F(RecoveryTest, TheNewRendererGetsTheScene) {
 TEST_F(RecoveryTest, PartsThatCannotBeAreRefusedAtOnceWhileThereIsNoRenderer) {
     ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
     std::vector<float> positions(std::size_t{3} * 7, 0.25F);
-    auto particles = sized<SluiceParticles>();
-    particles.count = 7;
-    particles.radius = 0.5F;
-    particles.position = positions.data();
+    SluiceParticles particles = sevenAt(positions);
     ASSERT_TRUE(host_->setParticles(particles));
     control_->lose_submit = 1;
     EXPECT_EQ(run(1), "-");

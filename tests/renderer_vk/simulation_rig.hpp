@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <numeric>
@@ -12,6 +14,7 @@
 
 #include "device/device.hpp"
 #include "simulation/solver.hpp"
+#include "simulation/vector.hpp"
 
 namespace sluice::vk::test {
 
@@ -71,6 +74,19 @@ inline std::vector<float> lattice(const Triple& corner, int x, int y, int z, flo
         }
     }
     return positions;
+}
+
+/// Packed triples as vectors in doubles.
+inline std::vector<Vector> vectorsOf(const std::vector<float>& triples) {
+    std::vector<Vector> vectors(triples.size() / 3);
+    for (std::size_t i = 0; i < triples.size(); ++i) {
+        vectors[i / 3][i % 3] = double{triples[i]};
+    }
+    return vectors;
+}
+
+inline double apart(const Vector& a, const Vector& b) {
+    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
 inline double squares(const std::vector<float>& values) {

@@ -15,20 +15,8 @@ using ::testing::HasSubstr;
 
 class SimulationSources : public SimulationTest {};
 
-std::vector<Vec> wide(const std::vector<float>& triples) {
-    std::vector<Vec> vectors(triples.size() / 3);
-    for (std::size_t i = 0; i < triples.size(); ++i) {
-        vectors[i / 3][i % 3] = double{triples[i]};
-    }
-    return vectors;
-}
-
-double apart(const Vec& a, const Vec& b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 double nearestPair(const std::vector<float>& triples) {
-    const std::vector<Vec> x = wide(triples);
+    const std::vector<Vec> x = vectorsOf(triples);
     double nearest = 1e300;
     for (std::size_t i = 0; i < x.size(); ++i) {
         for (std::size_t j = 0; j < i; ++j) {
@@ -222,13 +210,13 @@ TEST_F(SimulationSources, FieldsMatchTheDoublePrecisionReference) {
     constexpr double kDt = 1.0 / 128.0;
     const auto solver = make(settings, positions);
     ASSERT_TRUE(solver->step(kDt).ok());
-    const std::vector<Vec> x = wide(solver->read().value().position);
+    const std::vector<Vec> x = vectorsOf(solver->read().value().position);
     const ReferenceState expected =
-        referenceStep(settings, {wide(positions), std::vector<Vec>(positions.size() / 3), {}}, kDt);
+        referenceStep(settings, {vectorsOf(positions), std::vector<Vec>(positions.size() / 3), {}}, kDt);
     SimulationSettings calm = settings;
     calm.sources = {};
     const ReferenceState without =
-        referenceStep(calm, {wide(positions), std::vector<Vec>(positions.size() / 3), {}}, kDt);
+        referenceStep(calm, {vectorsOf(positions), std::vector<Vec>(positions.size() / 3), {}}, kDt);
     double farthest = 0.0;
     double moved = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {

@@ -18,18 +18,6 @@ using ::testing::HasSubstr;
 class SimulationStep : public SimulationTest {};
 class NeighbourSearch : public SimulationTest {};
 
-std::vector<Vec> wide(const std::vector<float>& triples) {
-    std::vector<Vec> vectors(triples.size() / 3);
-    for (std::size_t i = 0; i < triples.size(); ++i) {
-        vectors[i / 3][i % 3] = double{triples[i]};
-    }
-    return vectors;
-}
-
-double apart(const Vec& a, const Vec& b) {
-    return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 /// A jittered block, pressed together by a twelfth, in a corner of the domain among one solid of each kind.
 SimulationSettings cornerOfSolids() {
     SimulationSettings settings;
@@ -71,9 +59,9 @@ TEST_F(SimulationStep, MatchesTheDoublePrecisionReferenceAmongSolids) {
     const auto density = solver->densities();
     ASSERT_TRUE(density.ok()) << density.error().message();
 
-    const ReferenceState expected = referenceStep(settings, {wide(positions), wide(velocities), {}}, kDt);
-    const std::vector<Vec> x = wide(after.value().position);
-    const std::vector<Vec> v = wide(after.value().velocity);
+    const ReferenceState expected = referenceStep(settings, {vectorsOf(positions), vectorsOf(velocities), {}}, kDt);
+    const std::vector<Vec> x = vectorsOf(after.value().position);
+    const std::vector<Vec> v = vectorsOf(after.value().velocity);
     double farthest = 0.0;
     double fastest = 0.0;
     double densest = 0.0;
@@ -117,7 +105,7 @@ TEST_F(SimulationStep, TheReadOrderIsTheGivenOrder) {
 void expectBruteForce(const SimulationSettings& settings, const Solver& solver) {
     const auto lists = solver.lists();
     ASSERT_TRUE(lists.ok()) << lists.error().message();
-    const std::vector<Vec> x = wide(lists.value().position);
+    const std::vector<Vec> x = vectorsOf(lists.value().position);
     const double h = double{settings.support()};
     std::size_t pairs = 0;
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -184,7 +172,7 @@ TEST_F(NeighbourSearch, OfCoincidentParticlesListsAllAndDrivesThemApart) {
     expectBruteForce(settings, *solver);
     const auto after = solver->read();
     ASSERT_TRUE(after.ok());
-    const std::vector<Vec> x = wide(after.value().position);
+    const std::vector<Vec> x = vectorsOf(after.value().position);
     double nearest = 1.0;
     for (std::size_t i = 1; i < x.size(); ++i) {
         nearest = std::min(nearest, apart(x[0], x[i]));

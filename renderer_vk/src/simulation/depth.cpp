@@ -8,15 +8,15 @@
 namespace sluice::vk {
 namespace {
 
-double gravityOf(const SimulationSettings& settings) {
-    return std::hypot(double{settings.gravity[0]}, double{settings.gravity[1]}, double{settings.gravity[2]});
-}
-
 double spacing(const SimulationSettings& settings) {
     return 2.0 * double{settings.radius};
 }
 
 }  // namespace
+
+double gravityOf(const SimulationSettings& settings) {
+    return std::hypot(double{settings.gravity[0]}, double{settings.gravity[1]}, double{settings.gravity[2]});
+}
 
 bool heldToDepth(const SimulationSettings& settings) {
     return settings.overshoot > 0.0F && gravityOf(settings) > 0.0;

@@ -11,6 +11,8 @@
 
 namespace sluice::vk {
 
+/// m/s^2, whichever way it points.
+[[nodiscard]] double gravityOf(const SimulationSettings& settings);
 /// Whether steps are held to the depth at all: without gravity there is none.
 [[nodiscard]] bool heldToDepth(const SimulationSettings& settings);
 /// The axis (0 to 2) that gravity follows most.

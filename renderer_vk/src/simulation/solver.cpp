@@ -117,7 +117,7 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
     }
     const auto h = double{s.settings.support()};
     const StepLimits limits{longest, double{s.settings.cfl} * h,
-                            norm(s.settings.gravity) + strongest(s.settings.sources.fields)};
+                            gravityOf(s.settings) + strongest(s.settings.sources.fields)};
     AdvanceReport total;
     total.shortest = longest;
     double left = seconds;
