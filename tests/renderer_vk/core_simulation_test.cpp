@@ -59,12 +59,12 @@ struct Block {
 
 class LiveFluid : public ::testing::Test {
   protected:
-    void start(const Block& block, bool tracing = false) {
+    void start(const Block& block, bool tracing = false, bool validation = true) {
         renderer.reset();
         host = std::make_unique<FakeHost>(tracing);
         host->keep_descriptors = true;
         SluiceCreateInfo info = host->createInfo();
-        info.validation = 1;
+        info.validation = validation ? 1 : 0;
         renderer = std::make_unique<TestRenderer>(*host, info);
         ASSERT_EQ(renderer->result(), SLUICE_OK) << renderer->error().message;
         auto error = sized<SluiceError>();
@@ -187,6 +187,16 @@ TEST_F(LiveFluid, CallsOutOfOrderAreRefusedByName) {
     EXPECT_EQ(api().simulation_stats(renderer->get(), &none), SLUICE_ERROR_INVALID_ARGUMENT) << "it has ended";
     EXPECT_EQ(api().simulation_wait(renderer->get(), 1, 0), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(simulate(1, 0.0), SLUICE_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_F(LiveFluid, CanBeReplacedAgainAndAgainRightAfterAFrame) {
+    const Block block;
+    ASSERT_NO_FATAL_FAILURE(start(block, false, false));
+    for (std::uint64_t k = 1; k <= 30; ++k) {
+        ASSERT_EQ(simulate(1, 0.0), SLUICE_OK) << said.message;
+        draw(k, 1);
+        ASSERT_EQ(api().set_simulation(renderer->get(), &block.simulation, &said), SLUICE_OK) << said.message;
+    }
 }
 
 TEST_F(LiveFluid, AStepThatCannotBeTakenLeavesTheLastGoodStateInEveryFrameAfterIt) {

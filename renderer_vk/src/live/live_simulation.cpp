@@ -91,6 +91,9 @@ LiveSimulation::~LiveSimulation() {
     if (thread_.joinable()) {
         thread_.join();
     }
+    // A wait has seen the last signal, yet Mesa's submission thread still holds points of the semaphore until it turns to
+    // its next work: freed before that, it writes into freed memory (seen with 22.3.6).
+    (void)device_->waitIdle();
     solver_.reset();
     slots_.reset();
     device_->fn.vkDestroySemaphore(device_->handle, semaphore_, nullptr);

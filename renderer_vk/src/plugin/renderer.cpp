@@ -158,6 +158,9 @@ Status SluiceRenderer::setSimulation(const LiveSetup* setup) {
         }
         return status;
     }
+    if (simulation_ || ended_) {
+        (void)device_->waitIdle();  // as ~LiveSimulation does for its own queue: the frames' waits hold the semaphore too
+    }
     ended_.reset();
     simulation_.reset();
     if (setup == nullptr) {
