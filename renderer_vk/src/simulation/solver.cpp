@@ -83,7 +83,7 @@ Status Solver::setParticles(std::span<const float> positions, std::span<const fl
         return status;
     }
     s.odd = false;
-    s.measurable = false;
+    s.measurable = s.searched = false;
     s.counts = {count, count, 0, count};
     s.time = 0.0;
     s.depth = 0.0;

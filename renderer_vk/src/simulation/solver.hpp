@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "device/device.hpp"
+#include "simulation/anisotropy.hpp"
 #include "simulation/settings.hpp"
 #include "sluice/result.hpp"
 
@@ -83,6 +84,9 @@ class Solver {
     [[nodiscard]] std::uint32_t count() const;
     /// Until the next call that changes the state. Its last writes are those of a compute shader.
     [[nodiscard]] DeviceParticles onDevice() const;
+    /// The ellipsoid of each particle, out of the lists of the last step (or of a search of their own where there was
+    /// none), into `to`: kEllipsoidFloats each, each particle in the place that it was given in.
+    [[nodiscard]] Status ellipsoids(const Anisotropy& how, VkBuffer to);
     /// Seconds that were simulated since setParticles.
     [[nodiscard]] double time() const;
     /// Those that live, in the order in which they were given; then the others in the order of their birth.

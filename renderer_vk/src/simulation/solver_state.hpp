@@ -7,6 +7,7 @@
 
 #include "simulation/buffers.hpp"
 #include "simulation/kernels.hpp"
+#include "simulation/single_pass.hpp"
 #include "simulation/solver.hpp"
 #include "simulation/step_timer.hpp"
 
@@ -18,6 +19,19 @@ inline constexpr std::uint32_t kGroup = 64;
     return (items + group - 1) / group;
 }
 
+/// Rows of the lists for that many neighbours. A quarter of room, so that they do not grow at every step of a fluid
+/// that is being pressed together.
+[[nodiscard]] inline std::uint32_t roomFor(std::uint32_t most_neighbours) {
+    return (most_neighbours + most_neighbours / 4 + 15) / 16 * 16;
+}
+
+/// Particles in the order of the lists, and behind them those that have none.
+struct Surroundings {
+    VkBuffer position = VK_NULL_HANDLE, identity = VK_NULL_HANDLE;
+    std::uint32_t entries = 0;  ///< of which some may be gone
+    std::uint32_t moved = 0;    ///< of those, the ones that have lists
+};
+
 struct Solver::State {
     State(const Device& on, SimulationSettings with) : device(on), settings(std::move(with)), timer(on) {}
 
@@ -28,6 +42,7 @@ struct Solver::State {
     SimulationBuffers buffers;
     Buffer meshes;  ///< DistanceGrid as solids.glsl reads it
     StepTimer timer;
+    SinglePass anisotropy;          ///< built at its first use
     std::vector<Solid> walls;       ///< faces of the domain and solids, for bodies
     std::vector<BodyState> bodies;  ///< at the start of the next step
     std::vector<BodyState> moving;  ///< at the end of the step under way
@@ -38,6 +53,7 @@ struct Solver::State {
     double time = 0.0;              ///< s, since the particles were given
     bool odd = false;               ///< In and Out have changed places
     bool measurable = false;        ///< the sorted buffers are those of the state
+    bool searched = false;          ///< they are those of a search, which has moved nothing
     double speed = 0.0;             ///< m/s, of the fastest particle
     double depth = 0.0;             ///< m, of the last step; 0: not known yet, or not held to
     StepWatch watch;                ///< of advance(); may be empty
@@ -54,7 +70,15 @@ struct Solver::State {
         }
     }
     void run(VkCommandBuffer commands, Kernel kernel, std::uint32_t groups);
+    /// From the clearing of the counters to the lists.
+    void recordSearch(VkCommandBuffer commands);
     void record(VkCommandBuffer commands);
+    /// What the host looks at.
+    void recordReadBack(VkCommandBuffer commands);
+    /// Lists of the state where there are none of a step.
+    [[nodiscard]] Status search();
+    /// After a step or a search.
+    [[nodiscard]] Surroundings surroundings() const;
     [[nodiscard]] Result<StepStatus> tryStep(float dt);
     /// Buffers and a grid for so many. On an error everything is as before.
     [[nodiscard]] Status makeRoom(std::uint32_t particles, bool keep_state);

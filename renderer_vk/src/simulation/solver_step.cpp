@@ -29,9 +29,8 @@ void Solver::State::run(VkCommandBuffer commands, Kernel kernel, std::uint32_t g
     timer.mark(commands, kernelName(kernel));
 }
 
-void Solver::State::record(VkCommandBuffer commands) {
+void Solver::State::recordSearch(VkCommandBuffer commands) {
     const std::uint32_t entries = groupsOf(counts.entries, kGroup);
-    const std::uint32_t all = groupsOf(counts.living, kGroup);
     const std::uint32_t blocks = groupsOf(groupsOf(grid.cells(), kScanBlock), kScanGroup);
     timer.begin(commands);
     device.fn.vkCmdFillBuffer(commands, buffers[Slot::Cells].buffer(), 0, VK_WHOLE_SIZE, 0);
@@ -55,7 +54,12 @@ void Solver::State::record(VkCommandBuffer commands) {
     }
     run(commands, Kernel::Scatter, entries);
     run(commands, Kernel::Order, entries);
-    run(commands, Kernel::Neighbours, all);
+    run(commands, Kernel::Neighbours, groupsOf(counts.living, kGroup));
+}
+
+void Solver::State::record(VkCommandBuffer commands) {
+    const std::uint32_t all = groupsOf(counts.living, kGroup);
+    recordSearch(commands);
     for (std::uint32_t i = 0; i < settings.iterations; ++i) {
         run(commands, Kernel::Lambda, all);
         run(commands, Kernel::Delta, all);
@@ -72,6 +76,10 @@ void Solver::State::record(VkCommandBuffer commands) {
         run(commands, Kernel::Retire, all);
         run(commands, Kernel::Born, groupsOf(counts.births, kGroup));
     }
+    recordReadBack(commands);
+}
+
+void Solver::State::recordReadBack(VkCommandBuffer commands) {
     memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                   VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_READ_BIT);
     const VkBufferCopy whole{0, 0, sizeof(StepStatus)};
@@ -102,7 +110,7 @@ Result<StepStatus> Solver::State::tryStep(float dt) {
 }
 
 Result<StepReport> Solver::State::attempt(double seconds) {
-    measurable = false;
+    measurable = searched = false;
     if (const Status ready = prepareBirths(seconds); !ready) {
         return ready.error();
     }
@@ -133,9 +141,8 @@ Result<StepReport> Solver::State::attempt(double seconds) {
                               status.gone,
                               depthOf(settings, grid, status.fullest)};
         }
-        // The lists were cut short, so nothing of this step counts. A quarter of room, so that it does not happen at
-        // every step of a fluid that is being pressed together.
-        const std::uint32_t rows = (status.most_neighbours + status.most_neighbours / 4 + 15) / 16 * 16;
+        // The lists were cut short, so nothing of this step counts.
+        const std::uint32_t rows = roomFor(status.most_neighbours);
         device.log(SLUICE_LOG_INFO,
                    fmt::format("simulation: lists of {} neighbours were too short, now {}", buffers.neighbours, rows));
         if (const Status grown = growLists(device, buffers, rows); !grown) {

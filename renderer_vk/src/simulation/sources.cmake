@@ -11,9 +11,11 @@ list(APPEND SLUICE_VK_SOURCES
     src/simulation/mesh.cpp
     src/simulation/parameters.cpp
     src/simulation/settings.cpp
+    src/simulation/single_pass.cpp
     src/simulation/solid.cpp
     src/simulation/solver.cpp
     src/simulation/solver_room.cpp
+    src/simulation/solver_shape.cpp
     src/simulation/solver_step.cpp
     src/simulation/sources.cpp
     src/simulation/step_timer.cpp
