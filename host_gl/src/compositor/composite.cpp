@@ -12,18 +12,17 @@ namespace sluice::host {
 
 namespace {
 
-constexpr std::string_view kFragmentSource = R"(#version 120
-uniform sampler2D fluid_colour;
+constexpr std::string_view kFragmentSource = R"(uniform sampler2D fluid_colour;
 uniform sampler2D fluid_depth;
 uniform vec2 texel;  // 1 / size
 void main() {
     vec2 at = gl_FragCoord.xy * texel;
-    vec4 colour = texture2D(fluid_colour, at);
+    vec4 colour = SAMPLE(fluid_colour, at);
     if (!(colour.a > 0.0)) {
         discard;
     }
-    gl_FragColor = colour;
-    gl_FragDepth = texture2D(fluid_depth, at).r;
+    FRAGMENT = colour;
+    gl_FragDepth = SAMPLE(fluid_depth, at).r;
 }
 )";
 

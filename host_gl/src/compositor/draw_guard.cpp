@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "context/profile.hpp"
+
 namespace sluice::host {
 
 namespace {
@@ -12,11 +14,21 @@ bool has(int version, const char* extension) {
 }
 
 /// Toggles that could drop, move or change a fragment of the quad.
-std::vector<GLenum> togglesOfThisContext() {
-    std::vector<GLenum> names{GL_ALPHA_TEST,     GL_COLOR_LOGIC_OP,  GL_CULL_FACE,
-                              GL_DEPTH_TEST,     GL_DITHER,          GL_POLYGON_OFFSET_FILL,
-                              GL_POLYGON_SMOOTH, GL_POLYGON_STIPPLE, GL_SAMPLE_ALPHA_TO_COVERAGE,
-                              GL_STENCIL_TEST,   GL_SAMPLE_COVERAGE, GL_SAMPLE_ALPHA_TO_ONE};
+std::vector<GLenum> togglesOfThisContext(bool fixed_function) {
+    std::vector<GLenum> names{GL_COLOR_LOGIC_OP,
+                              GL_CULL_FACE,
+                              GL_DEPTH_TEST,
+                              GL_DITHER,
+                              GL_POLYGON_OFFSET_FILL,
+                              GL_POLYGON_SMOOTH,
+                              GL_SAMPLE_ALPHA_TO_COVERAGE,
+                              GL_STENCIL_TEST,
+                              GL_SAMPLE_COVERAGE,
+                              GL_SAMPLE_ALPHA_TO_ONE};
+    if (fixed_function) {
+        names.push_back(GL_ALPHA_TEST);
+        names.push_back(GL_POLYGON_STIPPLE);
+    }
     if (epoxy_gl_version() >= 30) {
         names.push_back(GL_RASTERIZER_DISCARD);
     }
@@ -61,6 +73,9 @@ GLenum enumeration(GLint value) {
 }  // namespace
 
 Status checkDrawable() {
+    if (!hasFixedFunction()) {
+        return {};
+    }
     if (const GLint list = integer(GL_LIST_INDEX); list != 0) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "OpenGL state",
                      fmt::format("display list {} is being compiled", list), "call glEndList before Sluice"};
@@ -79,7 +94,10 @@ DrawGuard::DrawGuard(GLsizei width, GLsizei height)
            .viewport_arrays = has(41, "GL_ARB_viewport_array"),
            .feedback_objects = has(40, "GL_ARB_transform_feedback2"),
            .clip_control = has(45, "GL_ARB_clip_control"),
-           .clamp_colour = has(30, "GL_ARB_color_buffer_float")} {
+           .clamp_colour = false,
+           .fixed_function = hasFixedFunction()} {
+    // Core profiles clamp what is read and nothing else.
+    has_.clamp_colour = has_.fixed_function && has(30, "GL_ARB_color_buffer_float");
     // First of all: no program may be changed while transform feedback runs.
     if (has_.feedback_objects && integer(GL_TRANSFORM_FEEDBACK_ACTIVE) != 0 &&
         integer(GL_TRANSFORM_FEEDBACK_PAUSED) == 0) {
@@ -91,6 +109,9 @@ DrawGuard::DrawGuard(GLsizei width, GLsizei height)
     saveBlend();
     saveViewport(width, height);
     glGetIntegerv(GL_POLYGON_MODE, polygon_mode_.data());
+    if (!has_.fixed_function) {
+        polygon_mode_[1] = polygon_mode_[0];  // one mode for both faces; a driver may return one number or two
+    }
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     depth_function_ = integer(GL_DEPTH_FUNC);
     glGetBooleanv(GL_DEPTH_WRITEMASK, &depth_mask_);
@@ -101,7 +122,7 @@ DrawGuard::DrawGuard(GLsizei width, GLsizei height)
 }
 
 void DrawGuard::saveToggles() {
-    for (const GLenum name : togglesOfThisContext()) {
+    for (const GLenum name : togglesOfThisContext(has_.fixed_function)) {
         toggles_.push_back({name, glIsEnabled(name) == GL_TRUE});
         glDisable(name);
     }

@@ -13,8 +13,8 @@
 namespace sluice::host {
 
 /// An error if GL is in a state in which nothing can be drawn or queried without damage to the host: a display list
-/// being compiled, or selection or feedback mode. (glBegin/glEnd, conditional rendering and an active occlusion query
-/// cannot be told in OpenGL; calling there is a broken contract.)
+/// being compiled, or selection or feedback mode, neither of which core profiles have. (glBegin/glEnd, conditional
+/// rendering and an active occlusion query cannot be told in OpenGL; calling there is a broken contract.)
 [[nodiscard]] Status checkDrawable();
 
 /// Saves every state that decides how a triangle without vertex arrays is rasterised and written to draw buffer 0, and
@@ -37,7 +37,8 @@ class DrawGuard {
         bool was_on;
     };
     struct Features {
-        bool indexed_masks, indexed_blend, viewport_arrays, feedback_objects, clip_control, clamp_colour;
+        bool indexed_masks, indexed_blend, viewport_arrays, feedback_objects, clip_control, clamp_colour,
+            fixed_function;
     };
 
     void saveToggles();

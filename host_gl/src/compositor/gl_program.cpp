@@ -6,12 +6,26 @@
 #include <algorithm>
 #include <string>
 
+#include "context/profile.hpp"
+
 namespace sluice::host {
 
 namespace {
 
 constexpr std::string_view kVertexSource = R"(#version 120
 void main() { gl_Position = vec4(gl_Vertex.xy, 0.0, 1.0); }
+)";
+constexpr std::string_view kFragmentHead = R"(#version 120
+#define FRAGMENT gl_FragColor
+#define SAMPLE texture2D
+)";
+// GLSL 1.40 is what OpenGL 3.1 has and what every later core profile still takes.
+constexpr std::string_view kCoreVertexSource = R"(#version 140
+void main() { gl_Position = vec4(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0, 0.0, 1.0); }
+)";
+constexpr std::string_view kCoreFragmentHead = R"(#version 140
+out vec4 FRAGMENT;
+#define SAMPLE texture
 )";
 
 class Shader {
@@ -56,14 +70,16 @@ std::string linkLog(GLuint program) {
 
 Error broken(std::string_view name, std::string detail) {
     return {SLUICE_ERROR_UNSUPPORTED, "GLSL program '" + std::string(name) + "'", std::move(detail),
-            "the GL driver must compile GLSL 1.20"};
+            "the GL driver must compile GLSL 1.20, or 1.40 in a core profile"};
 }
 
 }  // namespace
 
 Result<GlProgram> GlProgram::create(std::string_view name, std::string_view fragment_source) {
-    const Shader vertex(GL_VERTEX_SHADER, kVertexSource);
-    const Shader fragment(GL_FRAGMENT_SHADER, fragment_source);
+    const bool fixed_function = hasFixedFunction();
+    const Shader vertex(GL_VERTEX_SHADER, fixed_function ? kVertexSource : kCoreVertexSource);
+    const Shader fragment(GL_FRAGMENT_SHADER,
+                          std::string(fixed_function ? kFragmentHead : kCoreFragmentHead).append(fragment_source));
     for (const Shader* shader : {&vertex, &fragment}) {
         if (!shader->compiled()) {
             return broken(name, "does not compile: " + shader->log());
@@ -85,7 +101,7 @@ Result<GlProgram> GlProgram::create(std::string_view name, std::string_view frag
 }
 
 GlProgram::~GlProgram() {
-    if (program_ != 0) {
+    if (program_ != 0 && !glGone()) {
         glDeleteProgram(program_);
     }
 }
@@ -95,6 +111,18 @@ std::int32_t GlProgram::uniform(const char* name) const {
 }
 
 void drawScreenTriangle() {
+    if (!hasFixedFunction()) {
+        GLint bound = 0;
+        glGetIntegerv(GL_VERTEX_ARRAY_BINDING, &bound);
+        // Vertex arrays belong to one context, programs to a share group: it is made where it is used.
+        GLuint empty = 0;
+        glGenVertexArrays(1, &empty);
+        glBindVertexArray(empty);
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+        glBindVertexArray(static_cast<GLuint>(bound));
+        glDeleteVertexArrays(1, &empty);
+        return;
+    }
     glBegin(GL_TRIANGLES);
     glVertex2f(-1.0F, -1.0F);
     glVertex2f(3.0F, -1.0F);

@@ -5,6 +5,8 @@
 
 #include <array>
 
+#include "context/profile.hpp"
+
 namespace sluice::host {
 
 namespace {
@@ -65,6 +67,9 @@ GpuTimer::GpuTimer(Trace* trace) {
 }
 
 GpuTimer::~GpuTimer() {
+    if (glGone()) {
+        return;
+    }
     for (const Span& span : pending_) {
         const std::array<GLuint, 2> queries{span.first, span.last};
         glDeleteQueries(2, queries.data());

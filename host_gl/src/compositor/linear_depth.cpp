@@ -8,6 +8,7 @@
 
 #include "compositor/draw_guard.hpp"
 #include "compositor/screen_binding.hpp"
+#include "context/profile.hpp"
 #include "screen/gl_guards.hpp"
 
 namespace sluice::host {
@@ -15,16 +16,15 @@ namespace sluice::host {
 namespace {
 
 // Infinity comes as a uniform: GLSL 1.20 can neither write the literal nor rely on a division by zero.
-constexpr std::string_view kFragmentSource = R"(#version 120
-uniform sampler2D window_depth;
+constexpr std::string_view kFragmentSource = R"(uniform sampler2D window_depth;
 uniform vec2 texel;         // 1 / size
 uniform vec4 coefficients;  // n0, n1, d0, d1
 uniform float infinity;
 void main() {
-    float depth = texture2D(window_depth, gl_FragCoord.xy * texel).r;
+    float depth = SAMPLE(window_depth, gl_FragCoord.xy * texel).r;
     float e = 1.0 - depth;
     float metres = (coefficients.x + coefficients.y * e) / (coefficients.z + coefficients.w * e);
-    gl_FragColor = vec4(depth < 1.0 ? metres : infinity, 0.0, 0.0, 1.0);
+    FRAGMENT = vec4(depth < 1.0 ? metres : infinity, 0.0, 0.0, 1.0);
 }
 )";
 
@@ -113,6 +113,9 @@ LinearDepthPass& LinearDepthPass::operator=(LinearDepthPass&& other) noexcept {
 }
 
 LinearDepthPass::~LinearDepthPass() {
+    if (glGone()) {
+        return;
+    }
     if (framebuffer_ != 0) {
         glDeleteFramebuffers(1, &framebuffer_);
     }

@@ -5,16 +5,39 @@ namespace sluice::host {
 
 namespace {
 
+/// Where the framebuffer that is bound for drawing is drawn to, or would be had its owner not deselected its buffers.
 GLenum firstBuffer(GLuint framebuffer) {
-    return framebuffer != 0 ? GL_COLOR_ATTACHMENT0 : GL_BACK;
+    GLint selected = GL_NONE;
+    glGetIntegerv(GL_DRAW_BUFFER0, &selected);
+    if (selected != GL_NONE) {
+        return static_cast<GLenum>(selected);
+    }
+    if (framebuffer != 0) {
+        return GL_COLOR_ATTACHMENT0;
+    }
+    GLboolean two = GL_TRUE;
+    glGetBooleanv(GL_DOUBLEBUFFER, &two);
+    return two == GL_TRUE ? GL_BACK : GL_FRONT;
+}
+
+/// Several of the window's buffers at once can be drawn to and not be read.
+GLenum readable(GLenum buffer) {
+    switch (buffer) {
+        case GL_FRONT_AND_BACK:
+        case GL_LEFT:
+        case GL_RIGHT:
+            return GL_FRONT;
+        default:
+            return buffer;
+    }
 }
 
 }  // namespace
 
 ReadBinding::ReadBinding(GLuint framebuffer) {
-    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+    glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
     glGetIntegerv(GL_READ_BUFFER, &read_buffer_);
-    glReadBuffer(firstBuffer(framebuffer));
+    glReadBuffer(readable(firstBuffer(framebuffer)));
 }
 
 ReadBinding::~ReadBinding() {

@@ -10,7 +10,7 @@
 
 namespace sluice::host {
 
-/// Binds `framebuffer` to GL_READ_FRAMEBUFFER and reads its first colour attachment (the back buffer of framebuffer 0).
+/// Binds `framebuffer` and reads the buffer that its owner draws to first; if that is deselected, its first one.
 class ReadBinding {
   public:
     explicit ReadBinding(GLuint framebuffer);
@@ -23,7 +23,7 @@ class ReadBinding {
     GLint read_buffer_ = 0;
 };
 
-/// Binds `framebuffer` to GL_DRAW_FRAMEBUFFER and draws to its first colour attachment only.
+/// Binds `framebuffer` to GL_DRAW_FRAMEBUFFER and draws to that same buffer only.
 class DrawBinding {
   public:
     explicit DrawBinding(GLuint framebuffer);

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "compositor/draw_guard.hpp"
+#include "context/profile.hpp"
 #include "frame/check_info.hpp"
 #include "sluice/abi_sizes.hpp"
 #include "timeline/timeline_events.hpp"
@@ -135,7 +136,7 @@ bool RendererLife::glMayFinish() const {
     const bool on_gpu = link_.timeline != nullptr && (link_.timeline->kind() == SLUICE_TIMELINE_NATIVE ||
                                                       link_.timeline->kind() == SLUICE_TIMELINE_BINARY);
     // A GL wait that was recorded before the device was lost might never end.
-    return !(lost_ && on_gpu) && !gl_lost_;
+    return !(lost_ && on_gpu) && !gl_lost_ && !glGone();
 }
 
 void RendererLife::finishGl() {
@@ -146,7 +147,9 @@ void RendererLife::finishGl() {
             feed()->glFinished(begin);
         }
     }
-    timer_.collect();
+    if (!glGone()) {
+        timer_.collect();
+    }
 }
 
 Status RendererLife::resize(std::uint32_t width, std::uint32_t height) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "screen/gl_guards.hpp"
 
+#include "context/profile.hpp"
+
 namespace sluice::host {
 namespace {
 
@@ -70,12 +72,12 @@ TextureGuard::~TextureGuard() {
     glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(texture_));
 }
 
-PixelGuard::PixelGuard() {
+PixelGuard::PixelGuard() : has_transfers_(hasFixedFunction()) {
     for (std::size_t i = 0; i < kStores; ++i) {
         glGetIntegerv(kStoreNames[i].name, &stores_[i]);
         glPixelStorei(kStoreNames[i].name, kStoreNames[i].neutral);
     }
-    for (std::size_t i = 0; i < kTransfers; ++i) {
+    for (std::size_t i = 0; has_transfers_ && i < kTransfers; ++i) {
         glGetFloatv(kTransferNames[i].name, &transfers_[i]);
         glPixelTransferf(kTransferNames[i].name, kTransferNames[i].neutral);
     }
@@ -89,7 +91,7 @@ PixelGuard::~PixelGuard() {
     for (std::size_t i = 0; i < kStores; ++i) {
         glPixelStorei(kStoreNames[i].name, stores_[i]);
     }
-    for (std::size_t i = 0; i < kTransfers; ++i) {
+    for (std::size_t i = 0; has_transfers_ && i < kTransfers; ++i) {
         glPixelTransferf(kTransferNames[i].name, transfers_[i]);
     }
     glBindBuffer(GL_PIXEL_PACK_BUFFER, static_cast<GLuint>(pack_buffer_));

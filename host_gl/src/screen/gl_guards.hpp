@@ -46,6 +46,7 @@ class PixelGuard {
     static constexpr std::size_t kTransfers = 14;
     std::array<GLint, kStores> stores_{};
     std::array<GLfloat, kTransfers> transfers_{};
+    bool has_transfers_;  ///< core profiles have none
     GLint pack_buffer_ = 0, unpack_buffer_ = 0;
 };
 

@@ -81,6 +81,14 @@ Result<Screen> Screen::create(std::uint32_t width, std::uint32_t height) {
     return screen;
 }
 
+Screen Screen::borrowed(std::uint32_t framebuffer, std::uint32_t width, std::uint32_t height) {
+    Screen screen;
+    screen.framebuffer_ = framebuffer;
+    screen.width_ = width;
+    screen.height_ = height;
+    return screen;
+}
+
 Screen::Screen(Screen&& other) noexcept
     : framebuffer_(std::exchange(other.framebuffer_, 0)),
       colour_(std::exchange(other.colour_, 0)),
@@ -98,13 +106,14 @@ Screen& Screen::operator=(Screen&& other) noexcept {
 }
 
 Screen::~Screen() {
+    if (colour_ == 0) {
+        return;  // borrowed, or moved from
+    }
     if (framebuffer_ != 0) {
         glDeleteFramebuffers(1, &framebuffer_);
     }
     const std::array<GLuint, 2> storage{colour_, depth_};
-    if (colour_ != 0 || depth_ != 0) {
-        glDeleteRenderbuffers(2, storage.data());
-    }
+    glDeleteRenderbuffers(2, storage.data());
 }
 
 void Screen::bind() const {

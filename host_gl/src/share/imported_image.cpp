@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "context/profile.hpp"
 #include "screen/gl_guards.hpp"
 #include "share/gl_errors.hpp"
 #include "share/told_fd.hpp"
@@ -132,6 +133,9 @@ Status defineStorage(GLuint memory, const SluiceImageExport& image, const Format
 }  // namespace
 
 ImportedImage::~ImportedImage() {
+    if (glGone()) {
+        return;
+    }
     if (texture_ != 0) {
         glDeleteTextures(1, &texture_);
     }

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <utility>
 
+#include "context/profile.hpp"
 #include "timeline/cpu_wait.hpp"
 #include "timeline/timeline_events.hpp"
 
@@ -47,7 +48,9 @@ BridgeThread::~BridgeThread() {
     }
     // What a thread that never got its context has left behind.
     for (const Promise& promise : promises_) {
-        glDeleteSync(promise.fence);
+        if (!glGone()) {
+            glDeleteSync(promise.fence);
+        }
     }
     if (error_ && deps_.log) {
         // A lost renderer has been told of where it was noticed; that it takes no values then is no news.

@@ -7,6 +7,7 @@
 
 #include <string>
 
+#include "context/profile.hpp"
 #include "share/gl_errors.hpp"
 #include "share/renderer_error.hpp"
 #include "share/told_fd.hpp"
@@ -64,7 +65,7 @@ std::optional<NvTimelineFunctions> loadNvTimelineFunctions() {
 }
 
 GlSemaphore::~GlSemaphore() {
-    if (semaphore_ != 0) {
+    if (semaphore_ != 0 && !glGone()) {
         glDeleteSemaphoresEXT(1, &semaphore_);
     }
 }

@@ -10,10 +10,14 @@
 
 namespace sluice::host {
 
-/// A framebuffer of RGBA8 colour and 24-bit depth with 8-bit stencil, as an engine of 2004 would ask for.
+/// A framebuffer of RGBA8 colour and 24-bit depth with 8-bit stencil, as an engine of 2004 would ask for; or a host's
+/// own.
 class Screen {
   public:
     [[nodiscard]] static Result<Screen> create(std::uint32_t width, std::uint32_t height);
+    /// The lower left of a framebuffer that somebody else owns and keeps, 0 for the window's: its draw buffer 0, or its
+    /// first buffer if that is deselected, and its depth.
+    [[nodiscard]] static Screen borrowed(std::uint32_t framebuffer, std::uint32_t width, std::uint32_t height);
     Screen(Screen&&) noexcept;
     Screen& operator=(Screen&&) noexcept;
     ~Screen();

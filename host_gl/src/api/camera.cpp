@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "api/camera.hpp"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "context/profile.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+/// Stands for an infinite far plane; what the renderer does with the number is to bound its own values.
+constexpr double kFarthest = 1e6;
+
+Error wrong(std::string detail, const char* remedy) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, "camera", std::move(detail), remedy};
+}
+
+}  // namespace
+
+Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, bool zero_to_one) {
+    const auto finite = [](float value) { return std::isfinite(value); };
+    if (!std::all_of(view.begin(), view.end(), finite) || !std::all_of(projection.begin(), projection.end(), finite)) {
+        return wrong("a number of its matrices is not finite", "");
+    }
+    SluiceCamera camera{};
+    std::copy(view.begin(), view.end(), camera.view);
+    std::copy(projection.begin(), projection.end(), camera.projection);
+    if (zero_to_one) {
+        // z' = 2 z - w puts [0, w] where OpenGL has [-w, w], so that window depth comes out the same.
+        for (std::size_t column = 0; column < 4; ++column) {
+            camera.projection[column * 4 + 2] =
+                2.0F * camera.projection[column * 4 + 2] - camera.projection[column * 4 + 3];
+        }
+    }
+    const double p11{camera.projection[11]};
+    const double p15{camera.projection[15]};
+    if (!(p11 < 0.0) || std::abs(p15) > 1e-6 * std::abs(p11)) {
+        return wrong(fmt::format("elements 11 and 15 of its projection are {} and {}, expected -1 and 0 as glFrustum "
+                                 "makes them",
+                                 p11, p15),
+                     "give the perspective projection of the world, not that of a HUD, in column order");
+    }
+    const double p10 = double{camera.projection[10]} / -p11;
+    const double p14 = double{camera.projection[14]} / -p11;
+    const double near = p14 / (p10 - 1.0);
+    const double far = p10 + 1.0 < -1e-12 ? p14 / (p10 + 1.0) : kFarthest;
+    if (!(near > 0.0) || !(far > near)) {
+        return wrong(fmt::format("its projection has near {} and far {}, expected 0 < near < far", near, far),
+                     "a projection that maps near to 1 and far to 0 is not understood");
+    }
+    camera.near_plane = static_cast<float>(near);
+    camera.far_plane = static_cast<float>(std::min(far, kFarthest));
+    return camera;
+}
+
+Result<std::array<Matrix, 2>> matricesOfContext() {
+    if (!hasFixedFunction()) {
+        return wrong("it is NULL, and a core profile has no matrices of its own", "give view and projection");
+    }
+    std::array<Matrix, 2> found{};
+    glGetFloatv(GL_MODELVIEW_MATRIX, found[0].data());
+    glGetFloatv(GL_PROJECTION_MATRIX, found[1].data());
+    return found;
+}
+
+bool clipsZeroToOne() {
+    if (epoxy_gl_version() < 45 && !epoxy_has_gl_extension("GL_ARB_clip_control")) {
+        return false;
+    }
+    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
+    glGetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+    return mode == GL_ZERO_TO_ONE;
+}
+
+}  // namespace sluice::host

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include "api/session.hpp"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "api/places.hpp"
+#include "context/profile.hpp"
+#include "share/gl_errors.hpp"
+#include "sluice/abi_sizes.hpp"
+#include "sluice/defaults.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+/// More than this the fluid does not make good after a pause: it would take the time of many frames.
+constexpr double kLongestStride = 0.1;
+
+/// A call that makes images and programs takes as long as it takes, on a machine that is busy too.
+constexpr std::uint64_t kSetUpDeadlineNs = 120'000'000'000;
+constexpr double kFrameDeadline = 5.0;
+
+Error noContext(const char* call) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, call, "no EGL or GLX context is current on this thread",
+            "call it on the thread that draws, after the context was made current"};
+}
+
+Status checkContext() {
+    if (!epoxy_is_desktop_gl() || epoxy_gl_version() < 21) {
+        const int version = epoxy_gl_version();
+        return Error{SLUICE_ERROR_UNSUPPORTED, "OpenGL context",
+                     fmt::format("found {}{}.{}", epoxy_is_desktop_gl() ? "" : "ES ", version / 10, version % 10),
+                     "desktop OpenGL with 2.1 or newer in GL_VERSION is needed"};
+    }
+    if (epoxy_gl_version() < 30 && !epoxy_has_gl_extension("GL_ARB_framebuffer_object")) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "OpenGL context", "GL_ARB_framebuffer_object is missing",
+                     "update the GL driver"};
+    }
+    return {};
+}
+
+Result<PluginLibrary> loadPlugin(const SluiceOptions& options) {
+    const std::filesystem::path folder = libraryFolder();
+    Result<std::filesystem::path> plugin = pluginPlace(options.plugin, folder);
+    if (!plugin) {
+        return plugin.error();
+    }
+    if (options.process == SLUICE_PROCESS_SAME) {
+        return PluginLibrary::load(plugin.value());
+    }
+    Result<std::filesystem::path> program = rendererPlace(options.renderer_program, folder);
+    if (!program) {
+        return program.error();
+    }
+    const double deadline = options.frame_deadline > 0.0 ? std::min(options.frame_deadline, 3600.0) : kFrameDeadline;
+    IsolationConfig config;
+    config.program = std::move(program).value();
+    config.plugin = std::move(plugin).value();
+    config.call_timeout_ns = kSetUpDeadlineNs;
+    config.frame_call_timeout_ns = static_cast<std::uint64_t>(deadline * 1e9);
+    return PluginLibrary::isolated(config);
+}
+
+/// Shader objects belong to whole share groups and are made once: a name that is not one of ours tells another context.
+std::uint32_t makeWitness() {
+    const GLuint witness = glCreateShader(GL_FRAGMENT_SHADER);
+    const char* text = "// sluice was here";
+    glShaderSource(witness, 1, &text, nullptr);
+    return witness;
+}
+
+bool isWitness(std::uint32_t name) {
+    if (name == 0 || glIsShader(name) != GL_TRUE) {
+        return false;
+    }
+    std::array<char, 32> text{};
+    glGetShaderSource(name, static_cast<GLsizei>(text.size()), nullptr, text.data());
+    return std::string_view(text.data()) == "// sluice was here";
+}
+
+std::optional<Matrix> kept(const float* matrix) {
+    if (matrix == nullptr) {
+        return std::nullopt;
+    }
+    Matrix copy{};
+    std::copy_n(matrix, copy.size(), copy.begin());
+    return copy;
+}
+
+}  // namespace
+
+SluiceEnvironment KeptEnvironment::view() const {
+    auto out = sized<SluiceEnvironment>();
+    out.width = width;
+    out.height = height;
+    out.pixels = pixels.data();
+    return out;
+}
+
+Result<std::unique_ptr<Session>> Session::create(const SluiceOptions& options) {
+    const CurrentContext context = currentContext();
+    if (context.kind == ContextKind::None) {
+        return noContext("sluice_create");
+    }
+    const GlErrorScope errors;
+    if (Status status = checkContext(); !status) {
+        return status.error();
+    }
+    Result<PluginLibrary> library = loadPlugin(options);
+    if (!library) {
+        return library.error();
+    }
+    std::unique_ptr<Session> session(new Session(std::move(library).value(), options, logSink(options)));
+    session->look_ = defaultFluid();
+    session->sky_ = defaultSky();
+    // Whatever is wrong with the machine is to be known now and not in some frame. Without a size there is none to wait
+    // for either: any will do, and the first frame brings the right one.
+    const Extent extent =
+        session->follows_drawable_ ? drawableExtent(context).value_or(Extent{64, 64}) : session->extent_;
+    if (Status status = session->start(context, extent); !status) {
+        return status.error();
+    }
+    return session;
+}
+
+Session::~Session() {
+    drop();
+}
+
+void Session::drop() {
+    const CurrentContext present = currentContext();
+    if (present.kind != ContextKind::None && present == context_ && isWitness(witness_)) {
+        const GlErrorScope errors;
+        host_.reset();
+        resolve_.clear();
+        glDeleteShader(witness_);
+    } else {
+        const GlGone gone;
+        host_.reset();
+        resolve_.clear();
+    }
+    witness_ = 0;
+    context_ = {};
+}
+
+bool Session::reachable() const {
+    return host_ != nullptr && currentContext() == context_ && isWitness(witness_);
+}
+
+Status Session::start(const CurrentContext& context, const Extent& extent) {
+    drop();
+    value_ = 0;
+    pending_ = false;
+    FluidHostConfig config;
+    config.width = extent[0];
+    config.height = extent[1];
+    config.timeline = timeline_;
+    config.log = log_;
+    if (timeline_ == SLUICE_TIMELINE_AUTO && context.kind != ContextKind::Egl &&
+        !epoxy_has_gl_extension("GL_EXT_semaphore_fd")) {
+        // The bridge needs a second context, and one of GLX would need the engine's Xlib to know of threads.
+        config.timeline = SLUICE_TIMELINE_FINISH;
+    }
+    Result<std::unique_ptr<FluidHost>> made = FluidHost::create(library_, config);
+    if (!made) {
+        return made.error();
+    }
+    host_ = std::move(made).value();
+    context_ = context;
+    witness_ = makeWitness();
+    ++contexts_;
+    return giveScene();
+}
+
+Status Session::giveScene() {
+    if (environment_) {
+        const SluiceEnvironment environment = environment_->view();
+        if (Status status = host_->setEnvironment(&environment); !status) {
+            return status;
+        }
+    }
+    if (!water_) {
+        return {};
+    }
+    const SluiceSimulation simulation = water_->view();
+    return host_->setSimulation(&simulation);
+}
+
+Status Session::settle(const std::optional<Extent>& wanted) {
+    const CurrentContext context = currentContext();
+    if (context.kind == ContextKind::None) {
+        return noContext("Sluice");
+    }
+    if (host_ == nullptr || context != context_ || !isWitness(witness_)) {
+        if (Status status = checkContext(); !status) {
+            return status;
+        }
+        if (contexts_ > 0) {
+            log_(SLUICE_LOG_INFO,
+                 "another GL context is current: everything is made anew in it, and the fluid begins again");
+        }
+        const Extent extent = wanted ? *wanted : follows_drawable_ ? Extent{64, 64} : extent_;
+        return start(context, extent);
+    }
+    if (wanted && (host_->info().width != (*wanted)[0] || host_->info().height != (*wanted)[1])) {
+        return host_->resize((*wanted)[0], (*wanted)[1]);
+    }
+    return {};
+}
+
+Status Session::resize(std::uint32_t width, std::uint32_t height) {
+    if (width == 0 || height == 0 || width > SLUICE_MAX_EXTENT || height > SLUICE_MAX_EXTENT) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_resize",
+                     fmt::format("expected 1..{} a side, found {}x{}", SLUICE_MAX_EXTENT, width, height),
+                     "give the size of the drawable in pixels"};
+    }
+    extent_ = {width, height};
+    follows_drawable_ = false;
+    const GlErrorScope errors;
+    return reachable() ? settle(extent_) : Status{};
+}
+
+Status Session::setCamera(const float* view, const float* projection) {
+    view_ = kept(view);
+    projection_ = kept(projection);
+    if (view_ && projection_) {
+        return {};
+    }
+    view_.reset();
+    projection_.reset();
+    if (view != nullptr || projection != nullptr) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "camera", "one of its matrices is NULL and the other is not",
+                     "give both, or neither"};
+    }
+    if (currentContext().kind == ContextKind::None) {
+        return noContext("camera");
+    }
+    const GlErrorScope errors;
+    const Result<std::array<Matrix, 2>> found = matricesOfContext();
+    if (!found) {
+        return found.error();
+    }
+    view_ = found.value()[0];
+    projection_ = found.value()[1];
+    return {};
+}
+
+Status Session::beginFrame(const float* view, const float* projection, double time) {
+    in_frame_ = true;
+    const double passed = clock_ && std::isfinite(time) ? time - *clock_ : 0.0;
+    if (std::isfinite(time)) {
+        clock_ = time;
+    }
+    if (!active()) {
+        return {};
+    }
+    owed_ = std::clamp(owed_ + std::max(passed, 0.0), 0.0, kLongestStride);
+    const Status camera = setCamera(view, projection);
+    if (currentContext().kind == ContextKind::None) {
+        return noContext("sluice_begin_frame");
+    }
+    const GlErrorScope errors;
+    if (Status status = settle(std::nullopt); !status) {
+        return status;
+    }
+    // What has not been drawn yet is not left behind: an engine that skips frames must not pile up steps.
+    if (!pending_) {
+        if (Status status = host_->simulate(value_ + 1, value_ == 0 ? 0.0 : owed_); !status) {
+            return status;
+        }
+        ++value_;
+        owed_ = 0.0;
+        pending_ = true;
+    }
+    return camera;
+}
+
+}  // namespace sluice::host

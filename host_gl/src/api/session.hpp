@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// What a Sluice of sluice/sluice.h is: the engine's wishes, and a FluidHost in the context that is current.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "api/camera.hpp"
+#include "api/current_context.hpp"
+#include "api/log_sink.hpp"
+#include "api/target.hpp"
+#include "api/water.hpp"
+#include "sluice/host_gl/fluid_host.hpp"
+#include "sluice/sluice.h"
+
+namespace sluice::host {
+
+/// An environment map of its own.
+struct KeptEnvironment {
+    std::uint32_t width = 0, height = 0;
+    std::vector<float> pixels;
+    [[nodiscard]] SluiceEnvironment view() const;
+};
+
+/// Every call is one of sluice/sluice.h, on the thread of the context. What it promises of GL state holds of each.
+class Session {
+  public:
+    /// `options` has passed its checks. A context must be current.
+    [[nodiscard]] static Result<std::unique_ptr<Session>> create(const SluiceOptions& options);
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+    /// Asks nothing of GL unless the context of the objects is current.
+    ~Session();
+
+    [[nodiscard]] Status resize(std::uint32_t width, std::uint32_t height);
+    [[nodiscard]] Status beginFrame(const float* view, const float* projection, double time);
+    [[nodiscard]] Status setCamera(const float* view, const float* projection);
+    [[nodiscard]] Status endFrame();
+
+    [[nodiscard]] Status setWater(const SluiceWater* water);
+    [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment);
+    void setLook(const SluiceFluid& look) { look_ = look; }
+    void setSky(const SluiceSky& sky) { sky_ = sky; }
+    void setEnabled(bool enabled) { enabled_ = enabled; }
+    [[nodiscard]] Result<SluiceStatistics> statistics();
+
+    /// `status` again: a failure is kept as the last error, and told to the log unless it said so the last time.
+    SluiceResult told(const Status& status);
+    [[nodiscard]] const char* lastError() const { return last_error_.c_str(); }
+
+  private:
+    Session(PluginLibrary library, const SluiceOptions& options, LogSink log)
+        : library_(std::move(library)),
+          log_(std::move(log)),
+          extent_{options.width, options.height},
+          follows_drawable_(options.width == 0 || options.height == 0),
+          timeline_(static_cast<SluiceTimelineKind>(options.timeline)) {}
+
+    /// There is fluid to be drawn.
+    [[nodiscard]] bool active() const { return enabled_ && water_.has_value(); }
+    /// The present context is the one that the FluidHost lives in, and its objects are there.
+    [[nodiscard]] bool reachable() const;
+    /// A FluidHost in the present context, of the right size, with the scene that was asked for.
+    [[nodiscard]] Status settle(const std::optional<Extent>& wanted);
+    [[nodiscard]] Status start(const CurrentContext& context, const Extent& extent);
+    [[nodiscard]] Status giveScene();
+    /// Lets go of the FluidHost, with or without GL.
+    void drop();
+    [[nodiscard]] Status draw();
+
+    PluginLibrary library_;
+    LogSink log_;
+    Extent extent_{};
+    bool follows_drawable_;
+    SluiceTimelineKind timeline_;
+
+    std::optional<Water> water_;
+    std::optional<KeptEnvironment> environment_;
+    SluiceFluid look_{};
+    SluiceSky sky_{};
+    bool enabled_ = true;
+
+    CurrentContext context_;
+    Resolve resolve_;
+    std::uint32_t witness_ = 0;  ///< a GL object by which the context is known again
+    std::unique_ptr<FluidHost> host_;
+    std::uint32_t contexts_ = 0;
+
+    std::optional<Matrix> view_, projection_;
+    std::optional<double> clock_;  ///< of the last frame
+    double owed_ = 0.0;            ///< seconds that the fluid is behind
+    std::uint64_t value_ = 0;      ///< of the simulation, asked for
+    bool pending_ = false;         ///< that value has not been drawn
+    bool in_frame_ = false;
+    std::uint64_t frames_ = 0, frames_without_ = 0;
+    double end_frame_seconds_ = 0.0;
+    std::string last_error_, last_told_;
+};
+
+}  // namespace sluice::host

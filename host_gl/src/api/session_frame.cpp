@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+// The end of a Session's frame, and what it can be asked and told between frames.
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <span>
+#include <utility>
+
+#include "api/session.hpp"
+#include "api/struct_sizes.hpp"
+#include "share/gl_errors.hpp"
+
+namespace sluice::host {
+
+Status Session::endFrame() {
+    if (!in_frame_) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame", "no frame has begun",
+                     "call sluice_begin_frame before it, once for each"};
+    }
+    in_frame_ = false;
+    if (!active()) {
+        return {};
+    }
+    const auto begin = std::chrono::steady_clock::now();
+    Status status = draw();
+    const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+    end_frame_seconds_ = took.count();
+    ++(status ? frames_ : frames_without_);
+    return status;
+}
+
+Status Session::draw() {
+    if (!view_ || !projection_) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame", "there is no camera",
+                     "give matrices to sluice_begin_frame or sluice_set_camera"};
+    }
+    const CurrentContext present = currentContext();
+    if (present.kind == ContextKind::None || !(present == context_) || host_ == nullptr) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame",
+                     "the context is not the one that sluice_begin_frame was called in", "call both in the same"};
+    }
+    const GlErrorScope errors;
+    const Result<SluiceCamera> camera = cameraOf(*view_, *projection_, clipsZeroToOne());
+    if (!camera) {
+        return camera.error();
+    }
+    const Result<Target> bound = boundTarget();
+    if (!bound) {
+        return bound.error();
+    }
+    const Target& target = bound.value();
+    Extent extent = extent_;
+    if (follows_drawable_) {
+        const std::optional<Extent> drawable = target.extent ? target.extent : drawableExtent(present);
+        if (!drawable) {
+            return Error{SLUICE_ERROR_UNSUPPORTED, "size of the drawable", "the window system does not tell it",
+                         "give it with sluice_resize"};
+        }
+        extent = *drawable;
+    }
+    if (target.extent && ((*target.extent)[0] < extent[0] || (*target.extent)[1] < extent[1])) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "framebuffer bound for drawing",
+                     fmt::format("it is {}x{}, Sluice was told {}x{}", (*target.extent)[0], (*target.extent)[1],
+                                 extent[0], extent[1]),
+                     "call sluice_resize with its size"};
+    }
+    if (Status status = settle(extent); !status) {
+        return status;
+    }
+    if (value_ == 0) {
+        return Error{SLUICE_ERROR_DEVICE_LOST, "sluice_end_frame", "the context was lost within the frame", ""};
+    }
+    const Screen screen = Screen::borrowed(target.framebuffer, extent[0], extent[1]);
+    Screen source = Screen::borrowed(target.framebuffer, extent[0], extent[1]);
+    if (target.framebuffer != 0 && target.samples > 0) {
+        if (Status status = resolve_.take(target, extent); !status) {
+            return status;
+        }
+        source = Screen::borrowed(resolve_.framebuffer(), extent[0], extent[1]);
+    }
+    FrameInput input;
+    input.camera = camera.value();
+    input.sky = sky_;
+    input.fluid = look_;
+    input.simulation = value_;
+    if (Status status = host_->submit(source, input); !status) {
+        // Without a renderer nothing flows; the number is spent all the same.
+        pending_ = false;
+        return status;
+    }
+    pending_ = false;
+    return host_->composite(screen);
+}
+
+Status Session::setWater(const SluiceWater* asked) {
+    if (asked == nullptr) {
+        water_.reset();
+    } else {
+        if (Status status = checkAbiStruct(asked, "water"); !status) {
+            return status;
+        }
+        Result<Water> made = makeWater(readAbiStruct(*asked));
+        if (!made) {
+            return made.error();
+        }
+        water_ = std::move(made).value();
+    }
+    value_ = 0;
+    owed_ = 0.0;
+    pending_ = false;
+    if (!reachable()) {
+        return {};  // the next frame's context gets it
+    }
+    const GlErrorScope errors;
+    const SluiceSimulation view = water_ ? water_->view() : SluiceSimulation{};
+    Status status = host_->setSimulation(water_ ? &view : nullptr);
+    if (!status && status.error().code == SLUICE_ERROR_INVALID_ARGUMENT) {
+        water_.reset();
+    }
+    return status;
+}
+
+Status Session::setEnvironment(const SluiceEnvironment* asked) {
+    if (asked == nullptr) {
+        environment_.reset();
+    } else {
+        if (Status status = checkAbiStruct(asked, "environment"); !status) {
+            return status;
+        }
+        if (asked->pixels == nullptr || asked->width == 0 || asked->height == 0 || asked->width > SLUICE_MAX_EXTENT ||
+            asked->height > SLUICE_MAX_EXTENT) {
+            return Error{SLUICE_ERROR_INVALID_ARGUMENT, "environment",
+                         fmt::format("expected pixels of 1..{} a side, found {}x{} at {}", SLUICE_MAX_EXTENT,
+                                     asked->width, asked->height, asked->pixels == nullptr ? "NULL" : "some address"),
+                         "pass a NULL environment for the sky"};
+        }
+        const std::size_t count = std::size_t{asked->width} * asked->height * 3;
+        const std::span pixels(asked->pixels, count);
+        environment_ = KeptEnvironment{asked->width, asked->height, {pixels.begin(), pixels.end()}};
+    }
+    if (!reachable()) {
+        return {};
+    }
+    const GlErrorScope errors;
+    const SluiceEnvironment view = environment_ ? environment_->view() : SluiceEnvironment{};
+    return host_->setEnvironment(environment_ ? &view : nullptr);
+}
+
+Result<SluiceStatistics> Session::statistics() {
+    auto out = sized<SluiceStatistics>();
+    out.frames = frames_;
+    out.frames_without = frames_without_;
+    out.contexts = contexts_;
+    out.particles = water_ ? water_->count() : 0;
+    out.end_frame_seconds = end_frame_seconds_;
+    if (!reachable()) {
+        return out;
+    }
+    const GlErrorScope errors;
+    const SluiceRendererInfo& info = host_->info();
+    out.width = info.width;
+    out.height = info.height;
+    out.timeline = info.timeline;
+    out.renderers = host_->renderers();
+    const std::span name(info.capabilities.device_name);
+    std::copy_n(name.begin(), std::min(name.size(), sizeof(out.device) - 1), out.device);
+    if (value_ == 0) {
+        return out;
+    }
+    if (const Result<SluiceSimulationStats> simulation = host_->simulationStats(); simulation) {
+        out.steps = simulation.value().steps;
+        out.simulation_failed = simulation.value().failed;
+        out.particles = simulation.value().particle_count;
+    }
+    return out;
+}
+
+SluiceResult Session::told(const Status& status) {
+    if (status) {
+        last_told_.clear();
+        return SLUICE_OK;
+    }
+    last_error_ = status.error().message();
+    // The FluidHost itself tells of a renderer that it replaces, with what it is about to do.
+    const bool known = host_ != nullptr && host_->recovering();
+    if (last_error_ != last_told_ && !known) {
+        log_(SLUICE_LOG_ERROR, last_error_);
+    }
+    last_told_ = last_error_;
+    return status.error().code;
+}
+
+}  // namespace sluice::host

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "api/water.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <span>
+
+#include "sluice/abi_sizes.hpp"
+
+namespace sluice::host {
+
+namespace {
+
+using Vec3 = std::array<double, 3>;
+
+// A million particles take lavapipe seconds a frame and a graphics card some 20 ms; ten times that is a slip of the
+// radius's decimal point.
+constexpr std::uint64_t kMostParticles = 10'000'000;
+
+// As scenes have them (docs/simulation.md tells what each does).
+constexpr float kRelaxation = 0.1F;
+constexpr float kTensile = 0.0005F;
+constexpr float kCfl = 0.4F;
+
+Vec3 vec(const float (&v)[3]) {
+    return {double{v[0]}, double{v[1]}, double{v[2]}};
+}
+
+double length(const Vec3& v) {
+    return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+}
+
+Vec3 minus(const Vec3& a, const Vec3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double dot(const Vec3& a, const Vec3& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+double boxDistance(const SluiceSolid& solid, const Vec3& p) {
+    const double angle = double{solid.turn_degrees} * std::numbers::pi / 180.0;
+    const Vec3 d = minus(p, vec(solid.a));
+    const Vec3 turned{std::cos(angle) * d[0] - std::sin(angle) * d[2], d[1],
+                      std::sin(angle) * d[0] + std::cos(angle) * d[2]};
+    Vec3 out{};
+    double inside = -1e30;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double over = std::abs(turned[i]) - vec(solid.b)[i];
+        out[i] = std::max(over, 0.0);
+        inside = std::max(inside, over);
+    }
+    return inside < 0.0 ? inside : length(out);
+}
+
+/// Metres outside of the solid; negative inside.
+double distance(const SluiceSolid& solid, const Vec3& p) {
+    switch (solid.kind) {
+        case SLUICE_SOLID_PLANE:
+            return dot(minus(p, vec(solid.b)), vec(solid.a)) / std::max(length(vec(solid.a)), 1e-30);
+        case SLUICE_SOLID_SPHERE:
+            return length(minus(p, vec(solid.a))) - double{solid.radius};
+        case SLUICE_SOLID_CAPSULE: {
+            const Vec3 along = minus(vec(solid.b), vec(solid.a));
+            const double t =
+                std::clamp(dot(minus(p, vec(solid.a)), along) / std::max(dot(along, along), 1e-30), 0.0, 1.0);
+            const Vec3 d = minus(p, vec(solid.a));
+            return length({d[0] - t * along[0], d[1] - t * along[1], d[2] - t * along[2]}) - double{solid.radius};
+        }
+        default:
+            return boxDistance(solid, p);
+    }
+}
+
+Error wrong(const char* field, std::string detail, const char* remedy) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, std::string("water.") + field, std::move(detail), remedy};
+}
+
+bool finite(std::span<const float> values) {
+    return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+}
+
+Status check(const SluiceWater& w) {
+    if (!std::isfinite(w.radius) || w.radius <= 0.0F) {
+        return wrong("radius", fmt::format("{} is not a positive length in metres", w.radius), "0.05 is a start");
+    }
+    if (w.block_count > 0 && w.blocks == nullptr) {
+        return wrong("blocks", fmt::format("it is NULL with a count of {}", w.block_count), "");
+    }
+    if (w.solid_count > 0 && w.solids == nullptr) {
+        return wrong("solids", fmt::format("it is NULL with a count of {}", w.solid_count), "");
+    }
+    if (w.steps_per_second == 0 || w.iterations == 0) {
+        return wrong("steps_per_second and iterations",
+                     fmt::format("expected at least 1 of each, found {} and {}", w.steps_per_second, w.iterations),
+                     "start from sluice_water_defaults");
+    }
+    if (!finite(w.low) || !finite(w.high) || !finite(w.gravity)) {
+        return wrong("low, high and gravity", "one of their numbers is not finite", "");
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+        const float room = std::array{w.high[0] - w.low[0], w.high[1] - w.low[1], w.high[2] - w.low[2]}[i];
+        if (room < 4.0F * w.radius) {
+            return wrong("high", fmt::format("the box is {} m wide along axis {}, less than two particles", room, i),
+                         "low and high are opposite corners; is the radius too large?");
+        }
+    }
+    return {};
+}
+
+struct Lattice {
+    std::array<std::uint64_t, 3> count{};
+    [[nodiscard]] std::uint64_t sites() const { return count[0] * count[1] * count[2]; }
+};
+
+Result<Lattice> latticeOf(const SluiceBlock& block, float radius) {
+    Lattice lattice;
+    double sites = 1.0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double room = vec(block.high)[i] - vec(block.low)[i];
+        // What rounding took from a block of a whole number of spacings is given back.
+        const double fit = std::floor(room / (2.0 * double{radius}) + 1e-3);
+        if (!std::isfinite(fit) || !finite(block.velocity)) {
+            return wrong("blocks", "one of their numbers is not finite", "");
+        }
+        sites *= std::max(fit, 0.0);
+        lattice.count.at(i) = static_cast<std::uint64_t>(std::clamp(fit, 0.0, double{kMostParticles}));
+    }
+    if (sites > double{kMostParticles}) {
+        return wrong("blocks",
+                     fmt::format("one of them holds {:.0f} particles of radius {} m, {} are the limit", sites, radius,
+                                 kMostParticles),
+                     "make water.radius larger or the block smaller");
+    }
+    return lattice;
+}
+
+void fill(Water& water, const SluiceBlock& block, const Lattice& lattice, float radius) {
+    const double spacing = 2.0 * double{radius};
+    for (std::uint64_t i = 0; i < lattice.sites(); ++i) {
+        const std::array<std::uint64_t, 3> site{i % lattice.count[0], i / lattice.count[0] % lattice.count[1],
+                                                i / lattice.count[0] / lattice.count[1]};
+        Vec3 p{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            // A perfect lattice falls as one; a twentieth of a radius off it, by a hash of the number, does not.
+            const std::uint64_t hash = (i * 3 + axis + 1) * 0x9e3779b97f4a7c15U;
+            const double off = (static_cast<double>(hash >> 40) * 0x1p-24 - 0.5) * 0.1 * double{radius};
+            p.at(axis) = vec(block.low).at(axis) + spacing * (static_cast<double>(site.at(axis)) + 0.5) + off;
+        }
+        const bool free = std::all_of(water.solids.begin(), water.solids.end(), [&](const SluiceSolid& solid) {
+            return distance(solid, p) >= 0.5 * double{radius};
+        });
+        if (free) {
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                water.position.push_back(static_cast<float>(p.at(axis)));
+                water.velocity.push_back(static_cast<float>(vec(block.velocity).at(axis)));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+SluiceSimulation Water::view() const {
+    SluiceSimulation out = settings;
+    out.particle_count = count();
+    out.position = position.data();
+    out.velocity = velocity.data();
+    out.solid_count = static_cast<std::uint32_t>(solids.size());
+    out.solids = solids.data();
+    return out;
+}
+
+SluiceWater defaultWater() {
+    auto water = sized<SluiceWater>();
+    water.radius = 0.05F;
+    for (std::size_t i = 0; i < 3; ++i) {
+        water.low[i] = i == 1 ? 0.0F : -1.0F;
+        water.high[i] = i == 1 ? 2.0F : 1.0F;
+    }
+    water.gravity[1] = -9.81F;
+    water.iterations = 4;
+    water.steps_per_second = 240;
+    water.viscosity = 0.02F;
+    return water;
+}
+
+Result<Water> makeWater(const SluiceWater& asked) {
+    if (Status status = check(asked); !status) {
+        return status.error();
+    }
+    Water water;
+    water.solids.assign(asked.solids, asked.solids + asked.solid_count);
+    for (const SluiceBlock& block : std::span(asked.blocks, asked.block_count)) {
+        const Result<Lattice> lattice = latticeOf(block, asked.radius);
+        if (!lattice) {
+            return lattice.error();
+        }
+        if (lattice.value().sites() + water.count() > kMostParticles) {
+            return wrong("blocks", fmt::format("together they hold more than {} particles", kMostParticles),
+                         "make water.radius larger or the blocks smaller");
+        }
+        fill(water, block, lattice.value(), asked.radius);
+    }
+    if (water.count() == 0) {
+        return wrong("blocks", "they hold no particle outside of the solids",
+                     "give a block of fluid at least two radii wide along each axis");
+    }
+    SluiceSimulation& s = water.settings;
+    s.struct_size = sizeof(s);
+    s.frames_in_flight = 1;
+    s.radius = asked.radius;
+    std::copy_n(asked.low, 3, s.low);
+    std::copy_n(asked.high, 3, s.high);
+    std::copy_n(asked.gravity, 3, s.gravity);
+    s.iterations = asked.iterations;
+    s.relaxation = kRelaxation;
+    s.tensile = kTensile;
+    s.viscosity = asked.viscosity;
+    s.vorticity = asked.vorticity;
+    s.cfl = kCfl;
+    s.longest_step = 1.0 / static_cast<double>(asked.steps_per_second);
+    return water;
+}
+
+}  // namespace sluice::host

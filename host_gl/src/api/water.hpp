@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// A SluiceWater as the renderer takes it.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sluice/plugin.h"
+#include "sluice/result.hpp"
+#include "sluice/sluice.h"
+
+namespace sluice::host {
+
+/// Owns what a SluiceSimulation points to.
+struct Water {
+    SluiceSimulation settings{};
+    std::vector<float> position, velocity;
+    std::vector<SluiceSolid> solids;
+
+    /// Must not outlive this.
+    [[nodiscard]] SluiceSimulation view() const;
+    [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(position.size() / 3); }
+};
+
+[[nodiscard]] SluiceWater defaultWater();
+
+/// Fills the blocks with particles two radii apart, without those inside a solid. Pure.
+[[nodiscard]] Result<Water> makeWater(const SluiceWater& asked);
+
+}  // namespace sluice::host
