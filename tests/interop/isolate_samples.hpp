@@ -30,6 +30,8 @@ inline std::vector<Message> sampleMessages() {
     needs.particle_count = 7;
     auto stats = sized<SluiceFrameStats>();
     stats.pass_count = 2;
+    auto bodies = sized<SluiceBodies>();
+    bodies.count = 3;
     TracePoint point;
     point.begin_ns = 12;
     std::string_view("splat_depth").copy(point.name.data(), 31);
@@ -62,7 +64,10 @@ inline std::vector<Message> sampleMessages() {
             SetSimulation{{}, 1, sized<SluiceSimulation>()},
             Simulate{{}, 5, 0.125},
             SimulationStats{},
-            Returned{{}, SLUICE_OK, 0, "", sized<SluiceSimulationStats>()}};
+            Returned{{}, SLUICE_OK, 0, "", sized<SluiceSimulationStats>()},
+            SimulationBodies{{}, 6},
+            SetBody{{}, 2, sized<SluiceBodyTarget>()},
+            Returned{{}, SLUICE_OK, 0, "", bodies}};
 }
 
 }  // namespace sluice::isolate::test

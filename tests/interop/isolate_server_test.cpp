@@ -10,12 +10,14 @@
 #include <atomic>
 #include <cstring>
 #include <thread>
+#include <vector>
 
 #include "sluice/abi_sizes.hpp"
 #include "sluice/isolate/channel.hpp"
 #include "sluice/isolate/sealed_memory.hpp"
 #include "sluice/isolate/server.hpp"
 #include "sluice/isolate/shared_timeline.hpp"
+#include "sluice/simulation_arrays.hpp"
 
 namespace sluice::isolate {
 namespace {
@@ -31,6 +33,7 @@ struct FakeRenderer {
     std::uint64_t signals = 0;
     float last_colour = 0, last_solid = 0, last_velocity = 0;
     double simulated = 0.0;
+    std::vector<float> words;  ///< the last one of each array of a simulation
     int destroyed = 0;
 };
 FakeRenderer fake;
@@ -64,6 +67,17 @@ SluiceRendererApi fakeApi() {
     };
     api.set_simulation = [](SluiceRenderer* /*renderer*/, const SluiceSimulation* simulation,
                             SluiceError* /*error*/) -> SluiceResult {
+        if (simulation != nullptr) {
+            eachArray(*simulation, simulation->velocity != nullptr,
+                      [](const char* /*name*/, const auto* array, std::size_t elements, std::size_t /*most*/) {
+                          if (elements > 0) {
+                              float last = 0.0F;
+                              std::memcpy(&last, reinterpret_cast<const char*>(array + elements) - sizeof last,
+                                          sizeof last);
+                              fake.words.push_back(last);
+                          }
+                      });
+        }
         fake.last_solid = simulation != nullptr ? simulation->solids[simulation->solid_count - 1].radius : -1.0F;
         fake.last_velocity = simulation != nullptr && simulation->velocity != nullptr
                                  ? simulation->velocity[3 * simulation->particle_count - 1]
@@ -79,7 +93,18 @@ SluiceRendererApi fakeApi() {
         stats->reached = 12;
         return SLUICE_OK;
     };
-    api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
+    api.simulation_bodies = [](SluiceRenderer* /*renderer*/, std::uint64_t value,
+                               SluiceBodies* bodies) -> SluiceResult {
+        bodies->count = 2;
+        bodies->value = value;
+        return SLUICE_OK;
+    };
+    api.set_body = [](SluiceRenderer* /*renderer*/, std::uint32_t body, const SluiceBodyTarget* target,
+                      SluiceError* /*error*/) -> SluiceResult {
+        fake.simulated = static_cast<double>(body) + double{target->centre[1]};
+        return SLUICE_OK;
+    };
+    api.submit_frame = [SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
                           SluiceError* /*error*/) -> SluiceResult {
         fake.own_value = frame->signal_value;
         return SLUICE_OK;
@@ -98,7 +123,8 @@ SluiceRendererApi fakeApi() {
         *value = fake.own_value;
         return SLUICE_OK;
     };
-    api.destroy = [](SluiceRenderer* renderer) { fake.destroyed += renderer != nullptr ? 1 : 0; };
+    api.destroy = [](SluiceRenderer* renderer) {
+        fake.destroyed += renderer != nullptr ? 1 : 0; };
     return api;
 }
 
@@ -202,12 +228,48 @@ TEST_F(IsolateServer, ASimulationCrossesWithItsArraysOrIsRefused) {
     EXPECT_EQ(fake.simulated, 2.5);
     send(SimulationStats{});
     EXPECT_EQ(std::get<SluiceSimulationStats>(returned().filled).reached, 12U);
+    send(SimulationBodies{{}, 9});
+    EXPECT_EQ(std::get<SluiceBodies>(returned().filled).value, 9U);
+    SetBody to{{}, 1, sized<SluiceBodyTarget>()};
+    to.target.centre[1] = 0.25F;
+    send(to);
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.simulated, 1.25);
     call.simulation.particle_count = 3;
     send(call, {memory.get()});
     EXPECT_EQ(returned().result, SLUICE_ERROR_INVALID_ARGUMENT) << "the memory is shorter than that";
     send(SetSimulation{{}, 0, sized<SluiceSimulation>()});
     EXPECT_EQ(returned().result, SLUICE_OK);
     EXPECT_EQ(fake.last_solid, -1.0F);
+}
+
+TEST_F(IsolateServer, EveryArrayOfASimulationComesToItsOwnPlaceAndAnOlderPluginRefusesItByName) {
+    greet();
+    createRenderer(Answer{});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    auto s = sized<SluiceSimulation>();
+    s.solid_count = s.particle_count = s.emitter_count = s.drain_count = s.field_count = s.body_count = 1;
+    s.path_point_count = s.mesh_count = s.mesh_corner_count = s.mesh_triangle_count = 1;
+    // Each array is full of words that say which it is.
+    std::vector<std::vector<float>> arrays;
+    std::vector<std::span<const std::byte>> parts;
+    eachArray(s, true, [&](const char* /*name*/, const auto* array, std::size_t elements, std::size_t /*most*/) {
+        arrays.emplace_back(elements * sizeof(*array) / sizeof(float), static_cast<float>(arrays.size()));
+    });
+    for (const std::vector<float>& array : arrays) {
+        parts.push_back(std::as_bytes(std::span(array)));
+    }
+    const UniqueFd memory = sealedCopy(parts).value();
+    fake.words.clear();
+    send(SetSimulation{{}, 1, s}, {memory.get()});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.words, (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+
+    api_.simulation_bodies = nullptr;  // the server's table
+    send(SetSimulation{{}, 1, s}, {memory.get()});
+    EXPECT_THAT(returned().message, HasSubstr("simulation.emitters"));
+    send(SimulationBodies{{}, 1});
+    EXPECT_EQ(returned().result, SLUICE_ERROR_UNSUPPORTED);
 }
 
 TEST_F(IsolateServer, ARefusedImageIsTheRenderersFailure) {

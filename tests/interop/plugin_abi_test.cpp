@@ -153,7 +153,13 @@ static_assert(offsetof(SluiceFrame, fluid) == 268);
 static_assert(offsetof(SluiceFrame, simulation) == 384 && sizeof(SluiceFrame) == 392);
 static_assert(sizeof(SluiceSolid) == 64, "it stands in arrays");
 static_assert(offsetof(SluiceSimulation, gravity) == 36 && offsetof(SluiceSimulation, longest_step) == 72);
-static_assert(offsetof(SluiceSimulation, solids) == 88 && sizeof(SluiceSimulation) == 112);
+static_assert(offsetof(SluiceSimulation, solids) == 88 && offsetof(SluiceSimulation, tension) == 112);
+static_assert(offsetof(SluiceSimulation, emitters) == 144 && offsetof(SluiceSimulation, mesh_indices) == 200);
+static_assert(sizeof(SluiceSimulation) == 224);
+static_assert(sizeof(SluiceEmitter) == 80 && sizeof(SluiceDrain) == 48 && sizeof(SluiceForceField) == 64);
+static_assert(sizeof(SluiceBody) == 96 && sizeof(SluicePathPoint) == 32 && sizeof(SluiceMesh) == 32);
+static_assert(sizeof(SluiceBodyState) == 96 && offsetof(SluiceBodies, bodies) == 16);
+static_assert(sizeof(SluiceBodyTarget) == 32);
 static_assert(offsetof(SluiceSimulationStats, busy_ns) == 48 && offsetof(SluiceSimulationStats, message) == 84);
 static_assert(sizeof(SluiceSimulationStats) == 592);
 static_assert(offsetof(SluicePassStats, name) == 0);
@@ -206,6 +212,8 @@ static_assert(offsetof(SluiceRendererApi, set_simulation) == 144);
 static_assert(offsetof(SluiceRendererApi, simulate) == 152);
 static_assert(offsetof(SluiceRendererApi, simulation_wait) == 160);
 static_assert(offsetof(SluiceRendererApi, simulation_stats) == 168);
+static_assert(offsetof(SluiceRendererApi, simulation_bodies) == 176);
+static_assert(offsetof(SluiceRendererApi, set_body) == 184);
 }  // namespace layout
 #endif
 
@@ -219,10 +227,11 @@ static_assert(kSizePrefixed<SluiceRendererCapabilities> && kSizePrefixed<SluiceP
 static_assert(kSizePrefixed<SluiceEnvironment> && kSizePrefixed<SluiceSceneNeeds> && kSizePrefixed<SluiceFrame>);
 static_assert(kSizePrefixed<SluiceFrameStats> && kSizePrefixed<SluiceCreateInfo> && kSizePrefixed<SluiceRendererInfo>);
 static_assert(kSizePrefixed<SluiceRendererApi> && kSizePrefixed<SluiceSimulation>);
-static_assert(kSizePrefixed<SluiceSimulationStats>);
+static_assert(kSizePrefixed<SluiceSimulationStats> && kSizePrefixed<SluiceBodies>);
+static_assert(kSizePrefixed<SluiceBodyTarget>);
 
 TEST(PluginAbi, EnumerationsKeepTheirValues) {
-    EXPECT_EQ(SLUICE_ABI_VERSION, 0x10001U);
+    EXPECT_EQ(SLUICE_ABI_VERSION, 0x10002U);
     EXPECT_EQ(SLUICE_MAKE_ABI(2U, 3U), 0x20003U);
     EXPECT_EQ(SLUICE_FORMAT_D24S8, 13);
     EXPECT_EQ(SLUICE_FORMAT_COUNT, 14);

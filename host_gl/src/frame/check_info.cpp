@@ -9,7 +9,7 @@
 
 #include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
-#include "sluice/simulation_limits.hpp"
+#include "sluice/simulation_arrays.hpp"
 
 namespace sluice::host {
 
@@ -87,17 +87,7 @@ Status checkPart(const SluiceSimulation* simulation) {
     if (Status status = checkAbiStruct(simulation, "simulation"); !status) {
         return status;
     }
-    const SluiceSimulation known = readAbiStruct(*simulation);
-    if (known.particle_count == 0 || known.position == nullptr || (known.solid_count > 0 && known.solids == nullptr)) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation", "its particles or its solids are not there", ""};
-    }
-    if (known.particle_count > kMostSimulatedParticles || known.solid_count > kMostSolids) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation",
-                     fmt::format("expected at most {} particles and {} solids, found {} and {}",
-                                 kMostSimulatedParticles, kMostSolids, known.particle_count, known.solid_count),
-                     "simulate fewer"};
-    }
-    return {};
+    return checkArrays(readAbiStruct(*simulation));
 }
 
 Status checkPart(const SluiceEnvironment* environment) {

@@ -2,8 +2,11 @@
 #include "frame/kept_scene.hpp"
 
 #include <cstddef>
+#include <span>
+#include <type_traits>
 
 #include "sluice/abi_sizes.hpp"
+#include "sluice/simulation_arrays.hpp"
 
 namespace sluice::host {
 
@@ -47,26 +50,33 @@ void KeptScene::keep(const SluiceEnvironment* environment) {
 }
 
 void KeptScene::keep(const SluiceSimulation* simulation) {
-    start_.clear();
+    has_simulation_ = false;
+    arrays_.clear();
     if (simulation == nullptr) {
         return;
     }
-    const SluiceSimulation known = readAbiStruct(*simulation);
-    const std::size_t floats = std::size_t{known.particle_count} * 3;
-    solids_.assign(known.solids, known.solids + known.solid_count);
-    copy(start_velocity_, known.velocity, floats);
-    simulation_facts_ = known;
-    copy(start_, known.position, floats);
+    simulation_facts_ = readAbiStruct(*simulation);
+    has_velocities_ = simulation_facts_.velocity != nullptr;
+    eachArray(simulation_facts_, has_velocities_,
+              [&](const char* /*name*/, const auto* array, std::size_t elements, std::size_t /*most*/) {
+                  const auto bytes = std::as_bytes(std::span(array, elements));
+                  arrays_.emplace_back(bytes.begin(), bytes.end());
+              });
+    has_simulation_ = true;
 }
 
 std::optional<SluiceSimulation> KeptScene::simulation() const {
-    if (start_.empty()) {
+    if (!has_simulation_) {
         return std::nullopt;
     }
     SluiceSimulation simulation = simulation_facts_;
-    simulation.solids = solids_.data();
-    simulation.position = view(start_);
-    simulation.velocity = view(start_velocity_);
+    auto kept = arrays_.begin();
+    eachArray(simulation, has_velocities_,
+              [&](const char* /*name*/, auto& array, std::size_t elements, std::size_t /*most*/) {
+                  using Array = std::remove_reference_t<decltype(array)>;
+                  array = elements > 0 ? static_cast<Array>(static_cast<const void*>(kept->data())) : nullptr;
+                  ++kept;
+              });
     return simulation;
 }
 

@@ -2,6 +2,7 @@
 // Copies of what the caller has given to the renderer, for the renderer after it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -33,8 +34,8 @@ class KeptScene {
     SluiceEnvironment environment_facts_{};
     std::vector<float> pixels_;
     SluiceSimulation simulation_facts_{};
-    std::vector<SluiceSolid> solids_;
-    std::vector<float> start_, start_velocity_;  ///< start_ is empty without a simulation
+    bool has_simulation_ = false, has_velocities_ = false;
+    std::vector<std::vector<std::byte>> arrays_;  ///< in the order of eachArray
 };
 
 }  // namespace sluice::host

@@ -70,6 +70,8 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Status simulate(std::uint64_t value, double seconds) override;
     [[nodiscard]] Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) override;
     [[nodiscard]] Result<SluiceSimulationStats> simulationStats() override;
+    [[nodiscard]] Result<SluiceBodies> simulationBodies(std::uint64_t value) override;
+    [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget& target) override;
     [[nodiscard]] Status submit(const Screen& screen, const FrameInput& asked) override {
         return caught([&]() -> Status {
             ++without_fluid_;

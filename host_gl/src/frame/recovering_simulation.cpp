@@ -69,6 +69,35 @@ Result<SluiceSimulationStats> RecoveringHost::simulationStats() {
     return found;
 }
 
+Result<SluiceBodies> RecoveringHost::simulationBodies(std::uint64_t value) {
+    SluiceBodies found{};
+    const Status status = caught([&]() -> Status {
+        if (recovery_.down()) {
+            return whileDown("simulation_bodies");
+        }
+        Result<SluiceBodies> bodies = life_->simulationBodies(simulatedHere(value));
+        if (!bodies) {
+            return bodies.error();
+        }
+        found = bodies.value();
+        found.value += found.value != 0 ? simulation_base_ : 0;
+        return {};
+    });
+    if (!status) {
+        return status.error();
+    }
+    return found;
+}
+
+Status RecoveringHost::setBody(std::uint32_t body, const SluiceBodyTarget& target) {
+    return caught([&]() -> Status {
+        if (recovery_.down() || simulation_dropped_) {
+            return {};  // nothing moves without a renderer, or in one that has refused it
+        }
+        return judged(life_->setBody(body, target));
+    });
+}
+
 Status RecoveringHost::simulateAgain(const SluiceSimulation& simulation) {
     if (Status status = life_->setSimulation(&simulation); !status || asked_ == 0) {
         return status;

@@ -9,6 +9,7 @@
 
 #include "share/renderer_error.hpp"
 #include "sluice/abi_sizes.hpp"
+#include "sluice/simulation_arrays.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::host {
@@ -63,6 +64,16 @@ Status checkSimulates(const SluiceRendererApi& api) {
                      fmt::format("serves ABI {}.{} and simulates nothing; that came with 1.1", api.abi_version >> 16U,
                                  api.abi_version & 0xffffU),
                      "use a newer plugin, or give it particles"};
+    }
+    return {};
+}
+
+Status checkMoves(const SluiceRendererApi& api) {
+    if (api.simulation_bodies == nullptr || api.set_body == nullptr) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("renderer {}", api.name),
+                     fmt::format("serves ABI {}.{} and knows no bodies; they came with 1.2", api.abi_version >> 16U,
+                                 api.abi_version & 0xffffU),
+                     "use a newer plugin"};
     }
     return {};
 }
@@ -130,6 +141,12 @@ Status Renderer::setSimulation(const SluiceSimulation* simulation) const {
     if (Status status = checkSimulates(*api_); !status) {
         return status;
     }
+    if (simulation != nullptr) {
+        if (Status status = checkServed(readAbiStruct(*simulation), *api_); !status) {
+            (void)api_->set_simulation(handle_, nullptr, nullptr);  // on failure there is none
+            return status;
+        }
+    }
     auto said = sized<SluiceError>();
     const SluiceResult result = api_->set_simulation(handle_, simulation, &said);
     return statusOf("set_simulation", result, said);
@@ -170,6 +187,32 @@ Result<SluiceSimulationStats> Renderer::simulationStats() const {
         terminate(answer.value().message);
     }
     return answer;
+}
+
+Result<SluiceBodies> Renderer::simulationBodies(std::uint64_t value) const {
+    if (Status status = checkMoves(*api_); !status) {
+        return status.error();
+    }
+    auto bodies = sized<SluiceBodies>();
+    if (const SluiceResult result = api_->simulation_bodies(handle_, value, &bodies); result != SLUICE_OK) {
+        return rendererError("simulation_bodies", result, sized<SluiceError>());
+    }
+    Result<SluiceBodies> answer = filled("simulation_bodies", bodies);
+    if (answer && answer.value().count > SLUICE_MAX_BODIES) {
+        return Error{SLUICE_ERROR_INTERNAL, "simulation_bodies",
+                     fmt::format("expected {} bodies at most, found {}", SLUICE_MAX_BODIES, answer.value().count),
+                     "the plugin is broken"};
+    }
+    return answer;
+}
+
+Status Renderer::setBody(std::uint32_t body, const SluiceBodyTarget& target) const {
+    if (Status status = checkMoves(*api_); !status) {
+        return status;
+    }
+    auto said = sized<SluiceError>();
+    const SluiceResult result = api_->set_body(handle_, body, &target, &said);
+    return statusOf("set_body", result, said);
 }
 
 Status Renderer::submit(const SluiceFrame& frame) const {

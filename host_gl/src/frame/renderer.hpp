@@ -39,6 +39,8 @@ class Renderer {
     [[nodiscard]] Status simulate(std::uint64_t value, double seconds) const;
     [[nodiscard]] Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) const;
     [[nodiscard]] Result<SluiceSimulationStats> simulationStats() const;
+    [[nodiscard]] Result<SluiceBodies> simulationBodies(std::uint64_t value) const;
+    [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget& target) const;
     [[nodiscard]] Status submit(const SluiceFrame& frame) const;
     /// Polls until the frame has finished, for `timeout_ns` at most.
     [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame, std::uint64_t timeout_ns) const;

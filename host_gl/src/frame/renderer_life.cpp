@@ -118,6 +118,16 @@ Result<SluiceSimulationStats> RendererLife::simulationStats() {
     return link_.renderer.simulationStats();
 }
 
+Result<SluiceBodies> RendererLife::simulationBodies(std::uint64_t value) {
+    const auto scope = watch_.during("simulation_bodies", value);
+    return link_.renderer.simulationBodies(value);
+}
+
+Status RendererLife::setBody(std::uint32_t body, const SluiceBodyTarget& target) {
+    const auto scope = watch_.during("set_body", body);
+    return given(link_.renderer.setBody(body, target));
+}
+
 Result<SluiceFrameStats> RendererLife::stats(std::uint64_t frame) {
     const auto scope = watch_.during("poll", frame, link_.config.wait_timeout_ns);
     Result<SluiceFrameStats> stats = link_.renderer.stats(frame, link_.config.wait_timeout_ns);

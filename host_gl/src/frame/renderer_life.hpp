@@ -33,6 +33,8 @@ class RendererLife {
     [[nodiscard]] Status simulate(std::uint64_t value, double seconds);
     [[nodiscard]] Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns);
     [[nodiscard]] Result<SluiceSimulationStats> simulationStats();
+    [[nodiscard]] Result<SluiceBodies> simulationBodies(std::uint64_t value);
+    [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget& target);
     [[nodiscard]] Status submit(const Screen& screen, const FrameInput& input);
     [[nodiscard]] Status composite(const Screen& screen);
     [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame);

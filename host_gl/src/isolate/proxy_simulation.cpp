@@ -7,11 +7,13 @@
 #include <span>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "frame/check_info.hpp"
 #include "isolate/proxy_parts.hpp"
 #include "sluice/abi_boundary.hpp"
 #include "sluice/isolate/sealed_memory.hpp"
+#include "sluice/simulation_arrays.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::host::proxy {
@@ -44,14 +46,17 @@ SluiceResult setSimulation(SluiceRenderer* renderer, const SluiceSimulation* sim
         const SluiceSimulation given = readAbiStruct(*simulation);
         isolate::SetSimulation call;
         call.simulation = given;
-        call.simulation.solids = nullptr;
-        call.simulation.position = call.simulation.velocity = nullptr;
+        eachArray(call.simulation, false,
+                  [](const char* /*name*/, auto& array, std::size_t /*elements*/, std::size_t /*most*/) {
+                      array = nullptr;  // an address of this process is none of the other's
+                  });
         call.has_velocity = given.velocity != nullptr ? 1 : 0;
-        const std::size_t floats = std::size_t{3} * given.particle_count;
-        const Result<UniqueFd> copy =
-            isolate::sealedCopy({std::as_bytes(std::span(given.solids, given.solid_count)),
-                                 std::as_bytes(std::span(given.position, floats)),
-                                 std::as_bytes(std::span(given.velocity, given.velocity != nullptr ? floats : 0))});
+        std::vector<std::span<const std::byte>> parts;
+        eachArray(given, given.velocity != nullptr,
+                  [&](const char* /*name*/, const auto* array, std::size_t elements, std::size_t /*most*/) {
+                      parts.push_back(std::as_bytes(std::span(array, elements)));
+                  });
+        const Result<UniqueFd> copy = isolate::sealedCopy(parts);
         if (!copy) {
             (void)endSimulation(process);
             return copy.error();
@@ -102,6 +107,32 @@ SluiceResult simulationWait(SluiceRenderer* renderer, std::uint64_t value, std::
     }
 }
 
+SluiceResult simulationBodies(SluiceRenderer* renderer, std::uint64_t value, SluiceBodies* bodies) {
+    return guarded(nullptr, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (Status status = checkAbiStruct(bodies, "bodies"); !status) {
+            return status;
+        }
+        Result<Reply> reply =
+            of(renderer)->process->call(isolate::SimulationBodies{{}, value}, {}, "simulation_bodies", {});
+        return reply ? filledBy(reply.value().returned, bodies, "bodies") : Status{reply.error()};
+    });
+}
+
+SluiceResult setBody(SluiceRenderer* renderer, std::uint32_t body, const SluiceBodyTarget* target, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (Status status = checkAbiStruct(target, "target"); !status) {
+            return status;
+        }
+        return simply(*of(renderer)->process, isolate::SetBody{{}, body, readAbiStruct(*target)}, "set_body", {});
+    });
+}
+
 }  // namespace
 
 void addSimulation(SluiceRendererApi& table) {
@@ -109,6 +140,8 @@ void addSimulation(SluiceRendererApi& table) {
     table.simulate = simulate;
     table.simulation_wait = simulationWait;
     table.simulation_stats = simulationStats;
+    table.simulation_bodies = simulationBodies;
+    table.set_body = setBody;
 }
 
 }  // namespace sluice::host::proxy

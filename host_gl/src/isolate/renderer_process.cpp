@@ -132,7 +132,9 @@ std::uint64_t RendererProcess::limitOf(const isolate::Message& message) const {
         std::holds_alternative<isolate::SubmitFrame>(message) || std::holds_alternative<isolate::Poll>(message) ||
         std::holds_alternative<isolate::TimelineValue>(message) ||
         std::holds_alternative<isolate::TimelineExport>(message) ||
-        std::holds_alternative<isolate::Simulate>(message) || std::holds_alternative<isolate::SimulationStats>(message);
+        std::holds_alternative<isolate::Simulate>(message) ||
+        std::holds_alternative<isolate::SimulationStats>(message) ||
+        std::holds_alternative<isolate::SimulationBodies>(message) || std::holds_alternative<isolate::SetBody>(message);
     if (of_frame) {
         return config_.frame_call_timeout_ns;
     }

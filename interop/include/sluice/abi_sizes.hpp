@@ -68,6 +68,11 @@ inline constexpr std::size_t kAbiMinimum<SluiceSimulation> = offsetof(SluiceSimu
 template <>
 inline constexpr std::size_t kAbiMinimum<SluiceSimulationStats> = offsetof(SluiceSimulationStats, message) +
                                                                   sizeof(SluiceSimulationStats::message);
+template <>
+inline constexpr std::size_t kAbiMinimum<SluiceBodies> = offsetof(SluiceBodies, bodies) + sizeof(SluiceBodies::bodies);
+template <>
+inline constexpr std::size_t kAbiMinimum<SluiceBodyTarget> = offsetof(SluiceBodyTarget, turn) +
+                                                             sizeof(SluiceBodyTarget::turn);
 
 /// An empty T that says its size.
 template <typename T>

@@ -24,8 +24,8 @@
  * THREADS
  *   All renderer functions are called on the thread that owns the host's GL context, with that context current, because
  *   they may call back into host services that issue GL commands. The exceptions, callable from any thread at any time
- *   between create and destroy, are timeline_signal, timeline_wait and timeline_value; and simulation_wait and
- *   simulation_stats, but not while set_simulation runs.
+ *   between create and destroy, are timeline_signal, timeline_wait and timeline_value; and simulation_wait,
+ *   simulation_stats and simulation_bodies, but not while set_simulation runs.
  *   A renderer may call SluiceHostServices::log and ::trace from any thread; share_image, retire_image and canary only
  *   from inside create, resize, destroy or probe_format, on the calling thread.
  *
@@ -58,7 +58,7 @@ extern "C" {
 #endif
 
 #define SLUICE_ABI_MAJOR 1u
-#define SLUICE_ABI_MINOR 1u
+#define SLUICE_ABI_MINOR 2u
 /* No casts in these macros: C++ readers of this header compile with -Wold-style-cast. */
 #define SLUICE_MAKE_ABI(major, minor) (((major) << 16u) | (minor))
 #define SLUICE_ABI_VERSION SLUICE_MAKE_ABI(SLUICE_ABI_MAJOR, SLUICE_ABI_MINOR)
@@ -397,6 +397,84 @@ typedef struct SluiceSolid {
 
 #define SLUICE_MAX_FRAMES_IN_FLIGHT 3u
 
+/* Since ABI 1.2, as what follows until SluiceSimulation. All of these stand in arrays, so their sizes are for good. */
+#define SLUICE_MAX_EMITTERS 16u
+#define SLUICE_MAX_DRAINS 16u
+#define SLUICE_MAX_FIELDS 16u
+#define SLUICE_MAX_BODIES 16u
+
+typedef enum SluiceOpening { SLUICE_OPENING_DISC = 0, SLUICE_OPENING_RECTANGLE = 1 } SluiceOpening;
+
+/* A nozzle. */
+typedef struct SluiceEmitter {
+    uint32_t shape; /* SluiceOpening */
+    float centre[3];
+    float direction[3];  /* out of the opening; need not be unit */
+    float width, height; /* metres; a disc has its diameter in both */
+    float speed, rate;   /* m/s, > 0; particles per second, 0: as dense as the fluid at rest */
+    float start, stop;   /* seconds of the simulation's time; stop 0: never */
+    uint32_t reserved[7];
+} SluiceEmitter;
+
+typedef enum SluiceRegion { SLUICE_REGION_SPHERE = 0, SLUICE_REGION_BOX = 1 } SluiceRegion;
+
+/* Takes every particle that ends a step in it. */
+typedef struct SluiceDrain {
+    uint32_t shape; /* SluiceRegion; a box lies along the axes */
+    float centre[3];
+    float half[3]; /* metres; a sphere's radius is the first */
+    uint32_t reserved[5];
+} SluiceDrain;
+
+typedef enum SluiceFieldKind {
+    SLUICE_FIELD_WIND = 0,  /* blows along axis */
+    SLUICE_FIELD_POINT = 1, /* pulls to centre */
+    SLUICE_FIELD_VORTEX = 2 /* turns about the line through centre along axis */
+} SluiceFieldKind;
+
+/* An acceleration beside gravity. */
+typedef struct SluiceForceField {
+    uint32_t kind; /* SluiceFieldKind */
+    float centre[3];
+    float axis[3];          /* of any length but 0 */
+    float strength, radius; /* m/s^2 where it is strongest; nothing beyond radius, 0: the same everywhere */
+    uint32_t reserved[7];
+} SluiceForceField;
+
+typedef enum SluiceBodyMotion {
+    SLUICE_BODY_FREE = 0,  /* gravity, the fluid, solids and other bodies move it */
+    SLUICE_BODY_PATH = 1,  /* goes where its path says, and nothing stops it */
+    SLUICE_BODY_DRIVEN = 2 /* goes where set_body says, and nothing stops it */
+} SluiceBodyMotion;
+
+/* A rigid body, as it is at the start. */
+typedef struct SluiceBody {
+    uint32_t shape;  /* SluiceSolidKind: sphere, capsule (upright) or box */
+    uint32_t motion; /* SluiceBodyMotion */
+    float centre[3];
+    float half[3]; /* of the box about it: a sphere's radius three times; a capsule's radius, half length, radius */
+    float turn_degrees;              /* about +y */
+    float density;                   /* of a free one, in densities of the fluid at rest */
+    float velocity[3], spin[3];      /* m/s, rad/s */
+    uint32_t path_first, path_count; /* its points among SluiceSimulation::path_points */
+    uint32_t reserved[6];
+} SluiceBody;
+
+/* Between its points a body goes straight on; after the last it rests. */
+typedef struct SluicePathPoint {
+    float time; /* seconds of the simulation's time, ascending */
+    float centre[3];
+    float turn_degrees;
+    uint32_t reserved[3];
+} SluicePathPoint;
+
+/* A closed surface; triangles counter-clockwise as seen from outside. Its corners and triangles follow those of the
+ * mesh before it in SluiceSimulation::mesh_corners and ::mesh_indices; indices count from its own first corner. */
+typedef struct SluiceMesh {
+    uint32_t corner_count, triangle_count;
+    uint32_t reserved[6];
+} SluiceMesh;
+
 /* A fluid that the renderer lets flow by itself; docs/simulation.md has every number. Metres, seconds. Arrays are
  * tightly packed and copied during the call. */
 typedef struct SluiceSimulation {
@@ -412,6 +490,22 @@ typedef struct SluiceSimulation {
     const SluiceSolid* solids;
     const float* position;
     const float* velocity; /* may be NULL: at rest */
+
+    /* ABI 1.1 ends here. */
+    float tension, adhesion; /* m/s^2: gamma and beta of Akinci et al. 2013; 0: none */
+    float overshoot;         /* longest step for a depth; 0: the default of 0.17; below 0: steps are not held to it */
+    uint32_t max_particles;  /* at which emitters stop, and room of the output slots; 0 without emitters: as given */
+    uint32_t emitter_count, drain_count, field_count, body_count;
+    const SluiceEmitter* emitters; /* with one, particle_count may be 0 */
+    const SluiceDrain* drains;
+    const SluiceForceField* fields;
+    const SluiceBody* bodies; /* not with meshes, which they would not meet */
+    const SluicePathPoint* path_points;
+    const SluiceMesh* meshes;
+    const float* mesh_corners;    /* triples, metres */
+    const uint32_t* mesh_indices; /* three a triangle */
+    uint32_t path_point_count, mesh_count;
+    uint32_t mesh_corner_count, mesh_triangle_count; /* of all meshes together */
 } SluiceSimulation;
 
 typedef struct SluiceSimulationStats {
@@ -427,6 +521,29 @@ typedef struct SluiceSimulationStats {
     uint32_t own_queue;            /* 1: a queue of its own; 0: it takes turns with the frames */
     char message[508];             /* why `failed` failed */
 } SluiceSimulationStats;
+
+/* Since ABI 1.2. A body at the end of a value. Stands in an array, so its size is for good. */
+typedef struct SluiceBodyState {
+    float centre[3];
+    float turn[4];              /* unit quaternion x, y, z, w from its axes to the world's */
+    float velocity[3], spin[3]; /* m/s, rad/s */
+    float force[3], torque[3];  /* of the fluid, mean over the value: N and N m about the centre, for 1000 kg/m^3 */
+    uint32_t reserved[5];
+} SluiceBodyState;
+
+typedef struct SluiceBodies {
+    uint32_t struct_size;
+    uint32_t count; /* as many as SluiceSimulation had, in its order */
+    uint64_t value; /* whose they are; 0: of the start */
+    SluiceBodyState bodies[SLUICE_MAX_BODIES];
+} SluiceBodies;
+
+/* Since ABI 1.2. Where a body of SLUICE_BODY_DRIVEN is to be. */
+typedef struct SluiceBodyTarget {
+    uint32_t struct_size;
+    float centre[3];
+    float turn[4]; /* quaternion x, y, z, w of any length but 0 */
+} SluiceBodyTarget;
 
 /* ------------------------------------------------------------------------------------------------- statistics -- */
 
@@ -554,6 +671,17 @@ typedef struct SluiceRendererApi {
 
     /* Any thread. INVALID_ARGUMENT without a simulation. */
     SluiceResult (*simulation_stats)(SluiceRenderer* renderer, SluiceSimulationStats* stats);
+
+    /* ABI 1.1 ends here. */
+
+    /* Any thread. The bodies at the end of `value`, one of those that can still be drawn; 0: of the last that has been
+     * simulated. SLUICE_NOT_READY until it has. */
+    SluiceResult (*simulation_bodies)(SluiceRenderer* renderer, uint64_t value, SluiceBodies* bodies);
+
+    /* Where body number `body` (from 0), a driven one, is to be at the end of the value that simulate is called with
+     * next: it goes there straight on, and pushes the fluid. Without a call it stays where it is. */
+    SluiceResult (*set_body)(SluiceRenderer* renderer, uint32_t body, const SluiceBodyTarget* target,
+                             SluiceError* error);
 } SluiceRendererApi;
 
 /* The one exported symbol. Returns NULL when abi_version's major is not served. */

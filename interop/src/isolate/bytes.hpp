@@ -205,6 +205,11 @@ class Reader {
         }
     }
     void check(SluiceSimulationStats& value, std::size_t /*at*/) { value.message[sizeof(value.message) - 1] = '\0'; }
+    void check(SluiceBodies& value, std::size_t at) {
+        if (value.count > SLUICE_MAX_BODIES) {
+            fail(at, "at most " + std::to_string(SLUICE_MAX_BODIES) + " bodies", std::to_string(value.count));
+        }
+    }
     static void end(SluiceRendererCapabilities& value) {
         value.device_name[sizeof(value.device_name) - 1] = '\0';
         value.driver_name[sizeof(value.driver_name) - 1] = '\0';

@@ -85,7 +85,7 @@ Mapping::~Mapping() {
     }
 }
 
-Result<UniqueFd> sealedCopy(std::initializer_list<std::span<const std::byte>> parts) {
+Result<UniqueFd> sealedCopy(std::span<const std::span<const std::byte>> parts) {
     Result<UniqueFd> file = makeFile(0);
     if (!file) {
         return file;

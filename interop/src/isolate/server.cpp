@@ -18,10 +18,12 @@
 
 #include "isolate/carriers.hpp"
 #include "isolate/host_end.hpp"
+#include "isolate/simulation_memory.hpp"
 #include "sluice/abi_boundary.hpp"
 #include "sluice/abi_sizes.hpp"
 #include "sluice/isolate/sealed_memory.hpp"
 #include "sluice/isolate/shared_timeline.hpp"
+#include "sluice/simulation_arrays.hpp"
 
 namespace sluice::isolate {
 
@@ -124,6 +126,19 @@ class Server {
             simulates(error) ? api_.simulation_stats(renderer_, &stats) : SLUICE_ERROR_UNSUPPORTED;
         return said(result, error, stats);
     }
+    Message handle(const SimulationBodies& call, UniqueFd& /*with*/) {
+        auto error = sized<SluiceError>();
+        auto bodies = sized<SluiceBodies>();
+        const SluiceResult result =
+            moves(error) ? api_.simulation_bodies(renderer_, call.value, &bodies) : SLUICE_ERROR_UNSUPPORTED;
+        return said(result, error, bodies);
+    }
+    Message handle(const SetBody& call, UniqueFd& /*with*/) {
+        auto error = sized<SluiceError>();
+        const SluiceResult result =
+            moves(error) ? api_.set_body(renderer_, call.body, &call.target, &error) : SLUICE_ERROR_UNSUPPORTED;
+        return said(result, error);
+    }
     Message handle(const SubmitFrame& call, UniqueFd& /*with*/) {
         auto error = sized<SluiceError>();
         if (carriers_) {
@@ -178,6 +193,15 @@ class Server {
         if (!all) {
             writeAbiError(&error, {SLUICE_ERROR_UNSUPPORTED, "the plugin", "serves ABI 1.0 and simulates nothing",
                                    "use a newer one, or give it particles"});
+        }
+        return all;
+    }
+    /// Likewise ABI 1.2.
+    [[nodiscard]] bool moves(SluiceError& error) const {
+        const bool all = api_.simulation_bodies != nullptr && api_.set_body != nullptr;
+        if (!all) {
+            writeAbiError(&error, {SLUICE_ERROR_UNSUPPORTED, "the plugin", "serves ABI 1.1 and knows no bodies",
+                                   "use a newer one"});
         }
         return all;
     }
@@ -273,19 +297,18 @@ Message Server::handle(const SetSimulation& call, UniqueFd& /*with*/) {
         return said(result, error);
     }
     SluiceSimulation simulation = call.simulation;
-    const std::size_t solids = std::size_t{simulation.solid_count} * sizeof(SluiceSolid);
-    const std::size_t floats = std::size_t{3} * simulation.particle_count;
-    const std::size_t arrays = call.has_velocity != 0 ? 2 : 1;
-    const Result<Mapping> mapped = mapSealed(fds_.front(), solids + arrays * floats * sizeof(float));
-    if (!mapped) {
+    const auto refuse = [&](const Error& why) {
         (void)api_.set_simulation(renderer_, nullptr, nullptr);  // on failure there is none
-        writeAbiError(&error, mapped.error());
-        return said(mapped.error().code, error);
+        writeAbiError(&error, why);
+        return said(why.code, error);
+    };
+    if (const Status served = checkServed(simulation, api_); !served) {
+        return refuse(served.error());
     }
-    const auto* bytes = static_cast<const std::byte*>(mapped.value().at());
-    simulation.solids = static_cast<const SluiceSolid*>(static_cast<const void*>(bytes));
-    simulation.position = static_cast<const float*>(static_cast<const void*>(bytes + solids));
-    simulation.velocity = call.has_velocity != 0 ? simulation.position + floats : nullptr;
+    const Result<Mapping> mapped = placeArrays(simulation, call.has_velocity != 0, fds_.front());
+    if (!mapped) {
+        return refuse(mapped.error());
+    }
     const SluiceResult result = api_.set_simulation(renderer_, &simulation, &error);
     return said(result, error);
 }

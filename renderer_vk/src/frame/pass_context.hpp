@@ -27,8 +27,9 @@ struct FrameTargets {
 /// Particles on the device: tightly packed float triples, world metres.
 struct ParticleBuffers {
     VkBuffer position = VK_NULL_HANDLE;
-    std::uint32_t count = 0;
+    std::uint32_t count = 0;  ///< at most, if `draw` says how many
     float radius = 0.0F;
+    VkBuffer draw = VK_NULL_HANDLE;  ///< may be none; a VkDrawIndirectCommand of a vertex for each particle
 };
 
 /// What a pass tells of itself when it starts.

@@ -25,6 +25,12 @@ constexpr double kLeastPart = 1.0 / 1024.0;
 constexpr std::uint64_t kBytesOfParticle = 6 * sizeof(float);
 constexpr const char* kFluidName = "SIMULATED_FLUID";
 
+std::vector<BodyState> startsOf(const std::vector<Body>& bodies) {
+    std::vector<BodyState> starts(bodies.size());
+    std::transform(bodies.begin(), bodies.end(), starts.begin(), startOf);
+    return starts;
+}
+
 }  // namespace
 
 Error noSimulation(const char* call) {
@@ -37,10 +43,13 @@ LiveSimulation::LiveSimulation(const RendererTimeline& timeline, const Tracer& t
       tracer_(tracer),
       device_(std::move(device)),
       longest_step_(setup.longest_step),
-      particle_count_(static_cast<std::uint32_t>(setup.position.size() / 3)),
-      readers_(setup.frames_in_flight + 1) {
+      most_particles_(setup.most_particles),
+      bodies_(setup.settings.bodies),
+      reports_(setup.frames_in_flight + 1, startsOf(setup.settings.bodies)),
+      readers_(setup.frames_in_flight + 1),
+      living_(setup.frames_in_flight + 1) {
     stats_.struct_size = sizeof(stats_);
-    stats_.particle_count = particle_count_;
+    stats_.particle_count = static_cast<std::uint32_t>(setup.position.size() / 3);
 }
 
 Result<std::unique_ptr<LiveSimulation>> LiveSimulation::create(const Device& device, const RendererTimeline& timeline,
@@ -51,7 +60,7 @@ Result<std::unique_ptr<LiveSimulation>> LiveSimulation::create(const Device& dev
         return status.error();
     }
     device.log(SLUICE_LOG_INFO,
-               fmt::format("simulation of {} particles on {}, {} output slots", made->particle_count_,
+               fmt::format("simulation of {} particles on {}, {} output slots", made->stats_.particle_count,
                            made->oneQueue() ? "the queue of the frames" : "a queue of its own", made->slots_->count()));
     return made;
 }
@@ -72,7 +81,7 @@ Status LiveSimulation::start(const LiveSetup& setup) {
         return status;
     }
     Result<std::unique_ptr<OutputSlots>> slots =
-        OutputSlots::create(*device_, setup.frames_in_flight + 1, particle_count_, setup.settings.radius);
+        OutputSlots::create(*device_, setup.frames_in_flight + 1, most_particles_, setup.settings.radius);
     if (!slots) {
         return slots.error();
     }
@@ -91,8 +100,8 @@ LiveSimulation::~LiveSimulation() {
     if (thread_.joinable()) {
         thread_.join();
     }
-    // A wait has seen the last signal, yet Mesa's submission thread still holds points of the semaphore until it turns to
-    // its next work: freed before that, it writes into freed memory (seen with 22.3.6).
+    // A wait has seen the last signal, yet Mesa's submission thread still holds points of the semaphore until it turns
+    // to its next work: freed before that, it writes into freed memory (seen with 22.3.6).
     (void)device_->waitIdle();
     solver_.reset();
     slots_.reset();
@@ -136,9 +145,19 @@ Status LiveSimulation::simulate(std::uint64_t value, double seconds) {
         return Error{SLUICE_ERROR_INTERNAL, "simulate", "the simulation's thread has ended",
                      "call set_simulation again"};
     }
-    requests_.push_back({value, seconds});
+    requests_.push_back({value, seconds, std::exchange(asked_, {})});
     stats_.asked = value;
     changed_.notify_all();
+    return {};
+}
+
+Status LiveSimulation::setBody(const BodyTarget& target) {
+    if (target.body >= bodies_.size() || !bodies_[target.body].driven) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "set_body",
+                     fmt::format("body {} of {} is none that is driven", target.body, bodies_.size()),
+                     "give it the motion SLUICE_BODY_DRIVEN"};
+    }
+    asked_.push_back(target);
     return {};
 }
 
@@ -159,7 +178,11 @@ Result<SimulatedFluid> LiveSimulation::fluid(std::uint64_t value, bool skip_wait
                                          "simulation_wait before the frame"};
         }
     }
-    return SimulatedFluid{slots_->buffers(value), value, semaphore_, !skip_wait};
+    ParticleBuffers particles = slots_->buffers(value);
+    if (submitted_ >= value) {
+        particles.count = living_[value % living_.size()];
+    }
+    return SimulatedFluid{particles, value, semaphore_, !skip_wait};
 }
 
 std::string LiveSimulation::late() const {
@@ -211,7 +234,7 @@ std::optional<LiveSimulation::Request> LiveSimulation::next() {
     if (stop_) {
         return std::nullopt;
     }
-    const Request request = requests_.front();
+    Request request = std::move(requests_.front());
     requests_.pop_front();
     return request;
 }
@@ -249,6 +272,7 @@ void LiveSimulation::reach(const Request& request) {
     if (stopping()) {
         return;
     }
+    reports_.close(request.value, solver_->bodies());
     Status status = waitForFrames(request.value);
     if (status && stopping()) {
         return;
@@ -274,12 +298,17 @@ Status LiveSimulation::advance(const Request& request) {
             return {};  // the last good state it is, from now on
         }
     }
+    targets_.insert(targets_.end(), request.targets.begin(), request.targets.end());
     owed_ += request.seconds;
     if (owed_ < kLeastPart * longest_step_) {
         return {};
     }
     std::uint64_t step_began = tracer_.now();
-    solver_->watchSteps([&](const StepReport& /*report*/, bool kept) {
+    driveBodies();
+    solver_->watchSteps([&](const StepReport& report, bool kept) {
+        if (kept) {
+            reports_.add(solver_->bodies(), report.seconds);
+        }
         if (stopping()) {
             return false;
         }
@@ -298,11 +327,18 @@ Status LiveSimulation::advance(const Request& request) {
     }
     const AdvanceReport& report = done.value();
     const std::lock_guard lock(mutex_);
+    stats_.particle_count = solver_->count();
     stats_.shortest_step = stats_.steps == 0 ? report.shortest : std::min(stats_.shortest_step, report.shortest);
     stats_.steps += report.steps;
     stats_.steps_taken_again += report.split;
     stats_.fastest = std::max(stats_.fastest, report.speed);
     return {};
+}
+
+void LiveSimulation::driveBodies() {
+    for (const BodyTarget& target : std::exchange(targets_, {})) {
+        solver_->drive(target.body, target.centre, target.turn, owed_);
+    }
 }
 
 Status LiveSimulation::waitForFrames(std::uint64_t value) {
@@ -333,7 +369,7 @@ Status LiveSimulation::waitForFrames(std::uint64_t value) {
     return {};
 }
 
-Status LiveSimulation::publish(std::uint64_t value) const {
+Status LiveSimulation::publish(std::uint64_t value) {
     const std::uint64_t began = tracer_.now();
     auto signal = vkStruct<VkSemaphoreSubmitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO);
     signal.semaphore = semaphore_;
@@ -343,7 +379,11 @@ Status LiveSimulation::publish(std::uint64_t value) const {
     if (Status status = slots_->publish(state, value, signal); !status) {
         return status;
     }
-    const std::uint64_t bytes = state.count * kBytesOfParticle;
+    {
+        const std::lock_guard lock(mutex_);
+        living_[value % living_.size()] = state.living;
+    }
+    const std::uint64_t bytes = state.living * kBytesOfParticle;
     const std::uint64_t end = tracer_.now();
     tracer_.emit({SLUICE_TRACE_PASS, SLUICE_TRACK_SIMULATION, "publish", began, end - began, value, value, bytes,
                   SLUICE_SIMULATION_TO_RENDERER});

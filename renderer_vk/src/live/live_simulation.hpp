@@ -4,6 +4,7 @@
 
 #include <volk.h>
 
+#include <array>
 #include <condition_variable>
 #include <cstdint>
 #include <deque>
@@ -17,6 +18,7 @@
 #include "device/device.hpp"
 #include "frame/pass_context.hpp"
 #include "frame/tracer.hpp"
+#include "live/body_reports.hpp"
 #include "live/output_slots.hpp"
 #include "simulation/solver.hpp"
 #include "sluice/plugin.h"
@@ -34,6 +36,14 @@ struct LiveSetup {
     std::vector<float> position, velocity;  ///< triples; velocity may be empty
     double longest_step = 1.0;
     std::uint32_t frames_in_flight = 1;
+    std::uint32_t most_particles = 0;  ///< that there will ever be; room of the output slots
+};
+
+/// Where a driven body is to be.
+struct BodyTarget {
+    std::uint32_t body = 0;
+    Vector centre{};
+    std::array<double, 4> turn{};  ///< of any length but 0
 };
 
 /// The fluid of one value, for one frame.
@@ -46,8 +56,8 @@ struct SimulatedFluid {
 
 /// The solver looks at every step's outcome before the next one, so it needs a thread; that thread is the only one that
 /// uses the solver. Value v waits for the frames that drew value v - slots, which nobody may draw any more once v has
-/// been asked for. Pinned; device and timeline must outlive it. simulate(), fluid() and drawn() on the renderer's
-/// thread.
+/// been asked for. Pinned; device and timeline must outlive it. simulate(), setBody(), fluid() and drawn() on the
+/// renderer's thread.
 class LiveSimulation {
   public:
     static Result<std::unique_ptr<LiveSimulation>> create(const Device& device, const RendererTimeline& timeline,
@@ -60,13 +70,16 @@ class LiveSimulation {
     ~LiveSimulation();
 
     [[nodiscard]] Status simulate(std::uint64_t value, double seconds);
+    /// At the end of the value that simulate() is called with next.
+    [[nodiscard]] Status setBody(const BodyTarget& target);
     /// Refused if `value` was not asked for or its slot may be overwritten. Where the device has one queue this waits
     /// until the last work of `value` has been submitted: behind a frame that waits for it, it would never run. Fails
     /// after FrameRing::kPatienceNs.
     [[nodiscard]] Result<SimulatedFluid> fluid(std::uint64_t value, bool skip_wait);
     /// A frame that signals `signal_value` of the renderer's timeline draws `value`.
     void drawn(std::uint64_t value, std::uint64_t signal_value);
-    [[nodiscard]] std::uint32_t particles() const { return particle_count_; }
+    /// The most that there will ever be.
+    [[nodiscard]] std::uint32_t particles() const { return most_particles_; }
 
     /// No more values: the thread ends after the step under way, and every value that was asked for is signalled, so
     /// that no frame waits for ever. Does not wait.
@@ -78,11 +91,13 @@ class LiveSimulation {
     // Any thread.
     [[nodiscard]] SluiceResult wait(std::uint64_t value, std::uint64_t timeout_ns) const;
     [[nodiscard]] SluiceSimulationStats stats() const;
+    [[nodiscard]] Result<SluiceBodies> bodies(std::uint64_t value) const { return reports_.at(value); }
 
   private:
     struct Request {
         std::uint64_t value;
         double seconds;
+        std::vector<BodyTarget> targets;
     };
 
     [[nodiscard]] Status start(const LiveSetup& setup);
@@ -94,7 +109,8 @@ class LiveSimulation {
     [[nodiscard]] Status advance(const Request& request);
     [[nodiscard]] Status waitForFrames(std::uint64_t value);
     [[nodiscard]] std::string late() const;
-    [[nodiscard]] Status publish(std::uint64_t value) const;
+    void driveBodies();
+    [[nodiscard]] Status publish(std::uint64_t value);
     void fail(std::uint64_t value, const Error& error);
     void signalFromHere(std::uint64_t value) const;
     [[nodiscard]] std::uint64_t counter() const;
@@ -103,17 +119,22 @@ class LiveSimulation {
     Tracer tracer_;
     std::unique_ptr<Device> device_;  ///< a view, with the simulation's queue
     double longest_step_;
-    std::uint32_t particle_count_;
+    std::uint32_t most_particles_;
+    std::vector<Body> bodies_;  ///< as they were given
+    BodyReports reports_;
     VkSemaphore semaphore_ = VK_NULL_HANDLE;
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<OutputSlots> slots_;
 
-    double owed_ = 0.0;  ///< s, asked for and too little for a step; the thread's
+    double owed_ = 0.0;                ///< s, asked for and too little for a step; the thread's
+    std::vector<BodyTarget> targets_;  ///< likewise of values without a step
+    std::vector<BodyTarget> asked_;    ///< by setBody() since the last simulate(); the renderer's thread's
 
     mutable std::mutex mutex_;  ///< guards all below
     mutable std::condition_variable changed_;
     std::deque<Request> requests_;
     std::vector<std::uint64_t> readers_;  ///< by slot: signal value of the last frame that draws from it
+    std::vector<std::uint32_t> living_;   ///< by slot: particles, once its value has been submitted
     bool stop_ = false;
     bool ended_ = false;           ///< the thread calls nobody any more
     std::uint64_t held_by_ = 0;    ///< the frame that the thread waits for, or 0

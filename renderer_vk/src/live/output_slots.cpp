@@ -9,13 +9,18 @@
 
 #include "device/commands.hpp"
 #include "device/one_shot.hpp"
-#include "device/structs.hpp"
+#include "live/one_set.hpp"
 
 namespace sluice::vk {
 namespace {
 
 constexpr std::uint32_t kGroup = 64;
-constexpr std::uint32_t kBindings = 5;
+constexpr std::uint32_t kBindings = 7;
+
+/// Mirrors shaders/publish.comp.
+struct Push {
+    std::uint32_t count, changing;
+};
 
 Result<Buffer> makeTriples(const Device& device, std::uint32_t particles, const char* name) {
     const VkDeviceSize bytes = VkDeviceSize{particles} * 3 * sizeof(float);
@@ -47,13 +52,20 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
         if (!velocity) {
             return velocity.error();
         }
-        made->slots_.push_back({std::move(position).value(), std::move(velocity).value()});
+        Result<Buffer> draw = Buffer::create(
+            device, {sizeof(VkDrawIndirectCommand), VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                     BufferPlace::Device, "simulated particles' number", true});
+        if (!draw) {
+            return draw.error();
+        }
+        made->slots_.push_back({std::move(position).value(), std::move(velocity).value(), std::move(draw).value()});
     }
     // A frame that is told not to wait (a fault of tests) shall read what is defined.
     const Status cleared = runOnce(device, [&](VkCommandBuffer commands) {
         for (const OutputSlot& slot : made->slots_) {
             device.fn.vkCmdFillBuffer(commands, slot.position.buffer(), 0, VK_WHOLE_SIZE, 0);
             device.fn.vkCmdFillBuffer(commands, slot.velocity.buffer(), 0, VK_WHOLE_SIZE, 0);
+            device.fn.vkCmdFillBuffer(commands, slot.draw.buffer(), 0, VK_WHOLE_SIZE, 0);
         }
     });
     if (!cleared) {
@@ -61,27 +73,18 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
     }
     std::array<VkDescriptorType, kBindings> types{};
     types.fill(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
-    Result<Pipeline> pipeline = createCompute(device, {"publish", publish_comp, types, sizeof(std::uint32_t), {}});
+    Result<Pipeline> pipeline = createCompute(device, {"publish", publish_comp, types, sizeof(Push), {}});
     if (!pipeline) {
         return pipeline.error();
     }
     made->pipeline_ = std::move(pipeline).value();
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kBindings};
-    auto pool = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
-    pool.maxSets = 1;
-    pool.poolSizeCount = 1;
-    pool.pPoolSizes = &size;
-    if (const VkResult result = device.fn.vkCreateDescriptorPool(device.handle, &pool, nullptr, &made->pool_);
-        result != VK_SUCCESS) {
-        return vulkanError(result, "descriptor pool of the output slots");
+    Result<std::unique_ptr<ParticlePlaces>> places = ParticlePlaces::create(device);
+    if (!places) {
+        return places.error();
     }
-    auto allocate = vkStruct<VkDescriptorSetAllocateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO);
-    allocate.descriptorPool = made->pool_;
-    allocate.descriptorSetCount = 1;
-    allocate.pSetLayouts = &made->pipeline_.set_layout;
-    if (const VkResult result = device.fn.vkAllocateDescriptorSets(device.handle, &allocate, &made->set_);
-        result != VK_SUCCESS) {
-        return vulkanError(result, "descriptor set of the output slots");
+    made->places_ = std::move(places).value();
+    if (Status status = makeOneSet(device, made->pipeline_, kBindings, made->pool_, made->set_); !status) {
+        return status.error();
     }
     return made;
 }
@@ -90,38 +93,47 @@ OutputSlots::~OutputSlots() {
     device_.fn.vkDestroyDescriptorPool(device_.handle, pool_, nullptr);
 }
 
-Status OutputSlots::publish(const DeviceParticles& state, std::uint64_t value,
-                            const VkSemaphoreSubmitInfo& signal) const {
+Status OutputSlots::publish(const DeviceParticles& state, std::uint64_t value, const VkSemaphoreSubmitInfo& signal) {
+    if (state.living > particles_) {
+        return Error{SLUICE_ERROR_INTERNAL, "output slot",
+                     fmt::format("has room for {} particles, and {} live", particles_, state.living), ""};
+    }
     const OutputSlot& to = slot(value);
-    const std::array<VkDescriptorBufferInfo, kBindings> buffers{{{state.position, 0, VK_WHOLE_SIZE},
-                                                                 {state.velocity, 0, VK_WHOLE_SIZE},
-                                                                 {state.identity, 0, VK_WHOLE_SIZE},
-                                                                 {to.position.buffer(), 0, VK_WHOLE_SIZE},
-                                                                 {to.velocity.buffer(), 0, VK_WHOLE_SIZE}}};
-    // The last use of the set has ended: publish waits for it.
-    auto write = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
-    write.dstSet = set_;
-    write.descriptorCount = kBindings;
-    write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-    write.pBufferInfo = buffers.data();
-    device_.fn.vkUpdateDescriptorSets(device_.handle, 1, &write, 0, nullptr);
+    if (Status status = state.changing ? places_->prepare(state) : Status{}; !status) {
+        return status;
+    }
+    // The last use of the set has ended: publish waits for it. What is not read has a stand-in.
+    const std::array<VkBuffer, kBindings> buffers{state.position,
+                                                  state.velocity,
+                                                  state.identity,
+                                                  to.position.buffer(),
+                                                  to.velocity.buffer(),
+                                                  state.changing ? places_->marks() : state.identity,
+                                                  state.changing ? places_->before() : state.identity};
+    writeOneSet(device_, set_, buffers);
+    const VkDrawIndirectCommand draw{state.living, 1, 0, 0};
+    const Push push{state.count, state.changing ? 1U : 0U};
     return runOnce(device_,
                    [&](VkCommandBuffer commands) {
+                       device_.fn.vkCmdUpdateBuffer(commands, to.draw.buffer(), 0, sizeof draw, &draw);
                        memoryBarrier(device_, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                                      VK_ACCESS_2_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
                                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+                       if (state.changing) {
+                           places_->record(commands, state);
+                       }
                        device_.fn.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.handle);
                        device_.fn.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline_.layout, 0,
                                                           1, &set_, 0, nullptr);
                        device_.fn.vkCmdPushConstants(commands, pipeline_.layout, VK_SHADER_STAGE_COMPUTE_BIT, 0,
-                                                     sizeof(state.count), &state.count);
+                                                     sizeof push, &push);
                        device_.fn.vkCmdDispatch(commands, (state.count + kGroup - 1) / kGroup, 1, 1);
                    },
                    {&signal, 1});
 }
 
 ParticleBuffers OutputSlots::buffers(std::uint64_t value) const {
-    return {slot(value).position.buffer(), particles_, radius_};
+    return {slot(value).position.buffer(), particles_, radius_, slot(value).draw.buffer()};
 }
 
 }  // namespace sluice::vk

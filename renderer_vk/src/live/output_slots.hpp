@@ -9,23 +9,25 @@
 #include <vector>
 
 #include "frame/pass_context.hpp"
+#include "live/particle_places.hpp"
 #include "memory/buffer.hpp"
 #include "passes/pipeline.hpp"
 #include "simulation/solver.hpp"
 
 namespace sluice::vk {
 
-/// Packed float triples, each particle in the place that it was given in. What else frames will read of a particle
-/// (anisotropy, whitewater) gets a buffer here.
+/// Packed float triples, in the order in which the particles were given or born, without those that are gone: `draw`, a
+/// VkDrawIndirectCommand, has their number. What else frames will read of a particle (anisotropy, whitewater) gets a
+/// buffer here; shaders/common/places.glsl says where a particle lies in it.
 struct OutputSlot {
-    Buffer position, velocity;
+    Buffer position, velocity, draw;
 };
 
 /// Value v lies in slot v mod count(). Filled by the simulation's thread, read by frames. Pinned; dies before `device`,
 /// when no submitted work uses it.
 class OutputSlots {
   public:
-    /// `device`: that of the solver, a computeView().
+    /// `device`: that of the solver, a computeView(). `particles`: the most that there will ever be, at least 1.
     static Result<std::unique_ptr<OutputSlots>> create(const Device& device, std::uint32_t slots,
                                                        std::uint32_t particles, float radius);
     explicit OutputSlots(const Device& device) : device_(device) {}
@@ -36,8 +38,9 @@ class OutputSlots {
     /// Copies `state` into the slot of `value`, signals, and returns when the device has done it. No work under way may
     /// use that slot.
     [[nodiscard]] Status publish(const DeviceParticles& state, std::uint64_t value,
-                                 const VkSemaphoreSubmitInfo& signal) const;
+                                 const VkSemaphoreSubmitInfo& signal);
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(slots_.size()); }
+    /// `count` says only how many there are at most.
     [[nodiscard]] ParticleBuffers buffers(std::uint64_t value) const;
     [[nodiscard]] const OutputSlot& slot(std::uint64_t value) const { return slots_[value % slots_.size()]; }
 
@@ -46,6 +49,7 @@ class OutputSlots {
     std::uint32_t particles_ = 0;
     float radius_ = 0.0F;
     std::vector<OutputSlot> slots_;
+    std::unique_ptr<ParticlePlaces> places_;
     Pipeline pipeline_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;

@@ -21,7 +21,7 @@ struct PassImages {
     std::array<Image, static_cast<std::size_t>(PlanImage::Count)> own;
     Image nothing_to_read;   ///< 1x1, stands in where a shader's input is switched off
     Image nothing_to_write;  ///< 1x1, stands in where a shader's output is switched off
-    Buffer near_draw;        ///< indirect draw of the spheres that are too near to be points
+    Buffer near_draw;        ///< indirect draws: of the spheres that are too near to be points, and of the points
     Buffer surface_tiles;    ///< which tiles have fluid; see shaders/common/tiles.glsl
     Buffer thickness_tiles;  ///< the same at the resolution of thickness, with the margin of its blur
 

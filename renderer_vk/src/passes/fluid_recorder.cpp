@@ -98,7 +98,7 @@ Result<Image> makeOwn(const Device& device, const PlannedImage& planned) {
 }
 
 Result<Buffer> makeNearDraw(const Device& device) {
-    return Buffer::create(device, {sizeof(VkDrawIndirectCommand),
+    return Buffer::create(device, {2 * sizeof(VkDrawIndirectCommand),
                                    VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT |
                                        VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                                    BufferPlace::Device, "draw of near spheres"});

@@ -21,6 +21,9 @@ namespace {
 constexpr std::uint32_t kNearInvocations = 256;
 constexpr std::uint32_t kNearRow = 32768;
 
+/// Where near_draw has the draw of points.
+constexpr VkDeviceSize kPointsAt = sizeof(VkDrawIndirectCommand);
+
 struct Target {
     PlanImage id;
     float clear;
@@ -47,7 +50,7 @@ void draw(const PassContext& context, const Target& target, const SplatPipelines
                               0.0F, 1.0F};
     device.fn.vkCmdSetViewport(context.commands, 0, 1, &viewport);
     device.fn.vkCmdSetScissor(context.commands, 0, 1, &rendering.renderArea);
-    device.fn.vkCmdDraw(context.commands, context.particles.count, 1, 0, 0);
+    device.fn.vkCmdDrawIndirect(context.commands, context.images.near_draw.buffer(), kPointsAt, 1, 0);
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.triangles, bindings);
     device.fn.vkCmdDrawIndirect(context.commands, context.images.near_draw.buffer(), 0, 1, 0);
     device.fn.vkCmdEndRendering(context.commands);
@@ -77,12 +80,20 @@ Result<SplatPipelines> splatPipelines(const Device& device, SplatDesc desc, bool
 
 /// Decides whether the indirect draw of triangles has any vertices in this frame.
 void findNear(const PassContext& context, const Pipeline& pipeline) {
-    constexpr VkDrawIndirectCommand kNone{0, 1, 0, 0};
+    // Triangles, then points. How many particles a simulation has may be known to the device alone.
+    const std::array<VkDrawIndirectCommand, 2> draws{{{0, 1, 0, 0}, {context.particles.count, 1, 0, 0}}};
     VkBuffer near_draw = context.images.near_draw.buffer();
-    context.device.fn.vkCmdUpdateBuffer(context.commands, near_draw, 0, sizeof kNone, &kNone);
+    const bool counted = context.particles.draw != VK_NULL_HANDLE;
+    context.device.fn.vkCmdUpdateBuffer(context.commands, near_draw, 0, counted ? kPointsAt : sizeof draws,
+                                        draws.data());
+    if (counted) {
+        const VkBufferCopy points{0, kPointsAt, sizeof(VkDrawIndirectCommand)};
+        context.device.fn.vkCmdCopyBuffer(context.commands, context.particles.draw, near_draw, 1, &points);
+    }
     order(context, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
-          VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT);
+          VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
+          VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+              VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
     const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position),
                               readBuffer(near_draw)};
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, bindings);

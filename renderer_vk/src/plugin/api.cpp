@@ -280,7 +280,9 @@ constexpr SluiceRendererApi kApi = {sizeof(SluiceRendererApi),
                                     setSimulation,
                                     simulate,
                                     simulationWait,
-                                    simulationStats};
+                                    simulationStats,
+                                    simulationBodies,
+                                    setBody};
 
 }  // namespace
 

@@ -159,7 +159,8 @@ Status SluiceRenderer::setSimulation(const LiveSetup* setup) {
         return status;
     }
     if (simulation_ || ended_) {
-        (void)device_->waitIdle();  // as ~LiveSimulation does for its own queue: the frames' waits hold the semaphore too
+        (void)
+            device_->waitIdle();  // as ~LiveSimulation does for its own queue: the frames' waits hold the semaphore too
     }
     ended_.reset();
     simulation_.reset();
@@ -179,6 +180,10 @@ Status SluiceRenderer::simulate(std::uint64_t value, double seconds) {
         return noSimulation("simulate");
     }
     return simulation_->simulate(value, seconds);
+}
+
+Status SluiceRenderer::setBody(const BodyTarget& target) {
+    return simulation_ ? simulation_->setBody(target) : Status{noSimulation("set_body")};
 }
 
 Result<FrameFluid> SluiceRenderer::fluidOf(const SluiceFrame& frame) {

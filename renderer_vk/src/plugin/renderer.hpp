@@ -35,6 +35,7 @@ struct SluiceRenderer {
     /// Null ends the simulation.
     [[nodiscard]] sluice::Status setSimulation(const sluice::vk::LiveSetup* setup);
     [[nodiscard]] sluice::Status simulate(std::uint64_t value, double seconds);
+    [[nodiscard]] sluice::Status setBody(const sluice::vk::BodyTarget& target);
     /// Null without one.
     [[nodiscard]] const sluice::vk::LiveSimulation* simulation() const { return simulation_.get(); }
     /// Everything about the frame is checked here.

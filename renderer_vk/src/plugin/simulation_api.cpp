@@ -71,4 +71,30 @@ SluiceResult simulationStats(SluiceRenderer* renderer, SluiceSimulationStats* st
     });
 }
 
+SluiceResult simulationBodies(SluiceRenderer* renderer, std::uint64_t value, SluiceBodies* bodies) {
+    return guarded(nullptr, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (Status status = checkAbiStruct(bodies, "bodies"); !status) {
+            return status;
+        }
+        if (renderer->simulation() == nullptr) {
+            return noSimulation("simulation");
+        }
+        const Result<SluiceBodies> found = renderer->simulation()->bodies(value);
+        return found ? writeAbiStruct(bodies, found.value(), "bodies") : Status{found.error()};
+    });
+}
+
+SluiceResult setBody(SluiceRenderer* renderer, std::uint32_t body, const SluiceBodyTarget* target, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        const Result<BodyTarget> to = readTarget(body, target);
+        return to ? renderer->setBody(to.value()) : Status{to.error()};
+    });
+}
+
 }  // namespace sluice::vk

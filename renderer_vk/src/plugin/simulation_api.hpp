@@ -13,5 +13,8 @@ namespace sluice::vk {
 [[nodiscard]] SluiceResult simulate(SluiceRenderer* renderer, std::uint64_t value, double seconds, SluiceError* error);
 [[nodiscard]] SluiceResult simulationWait(SluiceRenderer* renderer, std::uint64_t value, std::uint64_t timeout_ns);
 [[nodiscard]] SluiceResult simulationStats(SluiceRenderer* renderer, SluiceSimulationStats* stats);
+[[nodiscard]] SluiceResult simulationBodies(SluiceRenderer* renderer, std::uint64_t value, SluiceBodies* bodies);
+[[nodiscard]] SluiceResult setBody(SluiceRenderer* renderer, std::uint32_t body, const SluiceBodyTarget* target,
+                                   SluiceError* error);
 
 }  // namespace sluice::vk

@@ -3,21 +3,24 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
-#include <span>
+#include <utility>
 
+#include "plugin/simulation_arrays.hpp"
 #include "sluice/abi_sizes.hpp"
-#include "sluice/simulation_limits.hpp"
+#include "sluice/simulation_arrays.hpp"
 
 namespace sluice::vk {
 namespace {
 
+/// What the solver's dispatches reach.
+constexpr std::uint32_t kMostWithEmitters = 4'000'000;
+/// Of a driven body, m: a solver's domain is smaller.
+constexpr double kFarthest = 1e8;
+
 Error invalid(const char* thing, std::string detail) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, thing, std::move(detail), ""};
-}
-
-Triple triple(const float (&values)[3]) {
-    return {values[0], values[1], values[2]};
 }
 
 Result<Solid> solidOf(const SluiceSolid& solid, std::size_t index) {
@@ -51,14 +54,13 @@ Status checkCounts(const SluiceSimulation& s) {
     if (!(s.longest_step > 0.0 && s.longest_step <= 1.0)) {
         return invalid("simulation.longest_step", fmt::format("{} s is outside (0, 1]", s.longest_step));
     }
-    if (s.particle_count == 0 || s.particle_count > kMostSimulatedParticles || s.position == nullptr) {
-        return invalid("simulation.position",
-                       fmt::format("expected 1 to {} particles, found {}{}", kMostSimulatedParticles, s.particle_count,
-                                   s.position == nullptr ? " at NULL" : ""));
+    if (Status status = checkArrays(s); !status) {
+        return status;
     }
-    if (s.solid_count > kMostSolids || (s.solid_count > 0 && s.solids == nullptr)) {
-        return invalid("simulation.solids", fmt::format("expected at most {}, found {}{}", kMostSolids, s.solid_count,
-                                                        s.solids == nullptr ? " at NULL" : ""));
+    const std::uint32_t least = std::max(s.particle_count, s.emitter_count > 0 ? 1U : 0U);
+    const std::uint32_t most = s.emitter_count > 0 ? kMostWithEmitters : kMostSimulatedParticles;
+    if (s.max_particles > most || (s.max_particles < least && (s.emitter_count > 0 || s.max_particles != 0))) {
+        return invalid("simulation.max_particles", fmt::format("{} is outside {}..{}", s.max_particles, least, most));
     }
     return {};
 }
@@ -94,12 +96,49 @@ Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
         }
         to.solids.push_back(solid.value());
     }
+    to.tension = s.tension;
+    to.adhesion = s.adhesion;
+    if (s.overshoot != 0.0F) {
+        to.overshoot = s.overshoot < 0.0F ? 0.0F : s.overshoot;
+    }
+    if (Status status = readSources(s, to.sources); !status) {
+        return status.error();
+    }
+    Result<std::vector<Body>> bodies = readBodies(s);
+    if (!bodies) {
+        return bodies.error();
+    }
+    to.bodies = std::move(bodies).value();
+    if (Status status = s.mesh_count > 0 ? readMeshes(s, to) : Status{}; !status) {
+        return status.error();
+    }
+    setup.most_particles = s.emitter_count > 0 ? s.max_particles : s.particle_count;
     const std::size_t floats = std::size_t{3} * s.particle_count;
     setup.position.assign(s.position, s.position + floats);
     if (s.velocity != nullptr) {
         setup.velocity.assign(s.velocity, s.velocity + floats);
     }
     return setup;
+}
+
+Result<BodyTarget> readTarget(std::uint32_t body, const SluiceBodyTarget* target) {
+    if (Status status = checkAbiStruct(target, "target"); !status) {
+        return status.error();
+    }
+    const SluiceBodyTarget given = readAbiStruct(*target);
+    BodyTarget to{body, wide(triple(given.centre)), {}};
+    double square = 0.0;
+    for (std::size_t i = 0; i < 4; ++i) {
+        to.turn.at(i) = double{given.turn[i]};
+        square += to.turn.at(i) * to.turn.at(i);
+    }
+    const Vector& x = to.centre;
+    if (!(std::abs(x[0]) + std::abs(x[1]) + std::abs(x[2]) < kFarthest) || !(square > 1e-12 && square < 1e12)) {
+        return invalid("target", fmt::format("expected a centre within {} m and a turn of a length above 0, found "
+                                             "[{}, {}, {}] and one of {}",
+                                             kFarthest, x[0], x[1], x[2], std::sqrt(square)));
+    }
+    return to;
 }
 
 }  // namespace sluice::vk

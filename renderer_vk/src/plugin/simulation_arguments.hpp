@@ -11,5 +11,6 @@ namespace sluice::vk {
 /// INVALID_ARGUMENT names what the solver's own checks would not see: pointers, kinds, counts. What the numbers may be
 /// is the solver's to say.
 [[nodiscard]] Result<LiveSetup> readSimulation(const SluiceSimulation* simulation);
+[[nodiscard]] Result<BodyTarget> readTarget(std::uint32_t body, const SluiceBodyTarget* target);
 
 }  // namespace sluice::vk

@@ -54,6 +54,31 @@ void follow(const Body& body, BodyState& state, double time, double seconds) {
     state.turn = aboutY(double{to.turn_degrees});
 }
 
+/// a after b, as turns.
+std::array<double, 4> product(const std::array<double, 4>& a, const std::array<double, 4>& b) {
+    const Vector u{a[0], a[1], a[2]};
+    const Vector v{b[0], b[1], b[2]};
+    const Vector xyz = plus(plus(times(a[3], v), times(b[3], u)), cross(u, v));
+    return {xyz[0], xyz[1], xyz[2], a[3] * b[3] - dot(u, v)};
+}
+
+void followDrive(const Drive& drive, BodyState& state, double time, double seconds) {
+    const double length_s = drive.to_time - drive.from_time;
+    const double share = length_s > 0.0 ? (time + seconds - drive.from_time) / length_s : 2.0;
+    const double before = length_s > 0.0 ? (time - drive.from_time) / length_s : 2.0;
+    constexpr double kRound = 1e-9;
+    if (before > 1.0 - kRound) {
+        state.velocity = state.spin = {};
+        return;
+    }
+    const bool there = share > 1.0 - kRound;  // to the bit, whatever the steps add up to
+    const Vector centre = there ? drive.to : plus(drive.from, times(share, minus(drive.to, drive.from)));
+    state.velocity = times(1.0 / seconds, minus(centre, state.centre));
+    state.spin = drive.spin;
+    state.centre = centre;
+    state.turn = there ? drive.to_turn : turnedBy(drive.from_turn, drive.spin, share * length_s);
+}
+
 /// Without a torque the angular momentum stays, and the spin follows from how the body is turned.
 void fly(const Body& body, BodyState& state, const Triple& gravity, double seconds) {
     const Vector inertia = inertiaOverMass(body);
@@ -97,7 +122,7 @@ Status checkBody(const Body& body, const std::string& thing, const Triple& low, 
         return wrong(thing, "finite numbers and a density in [0.001, 1000]", fmt::format("{}", body.density));
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        if (!(body.centre[axis] >= low[axis] && body.centre[axis] <= high[axis]) && body.path.empty()) {
+        if (!(body.centre[axis] >= low[axis] && body.centre[axis] <= high[axis]) && body.free()) {
             return wrong(thing, fmt::format("a centre in the domain, {} to {}", shown(low), shown(high)),
                          shown(body.centre));
         }
@@ -146,7 +171,7 @@ BodyState startOf(const Body& body) {
     BodyState state;
     state.centre = wide(body.path.empty() ? body.centre : body.path.front().centre);
     state.turn = aboutY(double{body.path.empty() ? body.turn_degrees : body.path.front().turn_degrees});
-    if (body.path.empty()) {
+    if (body.free()) {
         state.velocity = wide(body.velocity);
         state.spin = wide(body.spin);
     }
@@ -193,8 +218,10 @@ std::vector<BodyState> movedBodies(std::span<const Body> bodies, std::span<const
                                    std::span<const Solid> walls, const Triple& gravity, double time, double seconds) {
     std::vector<BodyState> moved(states.begin(), states.end());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        if (bodies[i].path.empty()) {
+        if (bodies[i].free()) {
             fly(bodies[i], moved[i], gravity, seconds);
+        } else if (bodies[i].driven) {
+            followDrive(bodies[i].drive, moved[i], time, seconds);
         } else {
             follow(bodies[i], moved[i], time, seconds);
         }
@@ -203,10 +230,35 @@ std::vector<BodyState> movedBodies(std::span<const Body> bodies, std::span<const
     return moved;
 }
 
+Drive driveFrom(const BodyState& state, const Vector& centre, const std::array<double, 4>& turn, double time,
+                double seconds) {
+    Drive drive;
+    drive.from_time = time;
+    drive.to_time = time + seconds;
+    drive.from = state.centre;
+    drive.to = centre;
+    drive.from_turn = state.turn;
+    const double norm = std::sqrt(turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3]);
+    for (std::size_t i = 0; i < 4; ++i) {
+        drive.to_turn.at(i) = turn.at(i) / norm;
+    }
+    const std::array<double, 4>& q = state.turn;
+    std::array<double, 4> way = product(drive.to_turn, {-q[0], -q[1], -q[2], q[3]});
+    if (way[3] < 0.0) {
+        std::transform(way.begin(), way.end(), way.begin(), [](double part) { return -part; });  // the shorter one
+    }
+    const Vector axis{way[0], way[1], way[2]};
+    const double sine = length(axis);
+    if (sine > 0.0) {
+        drive.spin = times(2.0 * std::atan2(sine, way[3]) / (sine * seconds), axis);
+    }
+    return drive;
+}
+
 void pushBody(const Body& body, BodyState& state, const Vector& impulse, const Vector& twist, double seconds) {
     state.force = times(kRestDensity / seconds, impulse);
     state.torque = times(kRestDensity / seconds, twist);
-    if (body.path.empty()) {
+    if (body.free()) {
         const double mass = double{body.density} * bodyVolume(body);
         state.velocity = plus(state.velocity, times(1.0 / mass, impulse));
         state.spin = plus(state.spin, spinOf(body, state, times(1.0 / mass, twist)));

@@ -2,6 +2,7 @@
 // Rigid bodies that push the fluid and are pushed by it. Pure: no Vulkan type. Masses are in m^3 of fluid at rest.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -19,6 +20,13 @@ struct PathPoint {
     Triple centre{};
     float turn_degrees = 0.0F;  ///< about +y
 };
+/// Where a driven body goes from one time to another, straight on; before and after, it rests.
+struct Drive {
+    double from_time = 0.0, to_time = 0.0;  ///< s
+    Vector from{}, to{};
+    std::array<double, 4> from_turn{0, 0, 0, 1}, to_turn{0, 0, 0, 1};  ///< unit quaternions
+    Vector spin{};                                                     ///< that turns the one into the other, rad/s
+};
 /// As it is at the start.
 struct Body {
     SolidKind shape = SolidKind::Box;  ///< not a plane; a capsule stands upright
@@ -30,7 +38,12 @@ struct Body {
     Triple velocity{};          ///< m/s
     Triple spin{};              ///< rad/s
     std::vector<PathPoint>
-        path{};  ///< if there is one, nothing stops the body; density, velocity and spin mean nothing then
+        path{};           ///< if there is one, nothing stops the body; density, velocity and spin mean nothing then
+    bool driven = false;  ///< likewise; it goes where `drive` says
+    Drive drive{};
+
+    /// Whether fluid, gravity and impacts move it.
+    [[nodiscard]] bool free() const { return path.empty() && !driven; }
 };
 inline constexpr std::size_t kMaxBodies = 16;
 /// kg/m^3, so that forces can be said in newtons.
@@ -59,6 +72,9 @@ struct BodyState {
 [[nodiscard]] std::vector<BodyState> movedBodies(std::span<const Body> bodies, std::span<const BodyState> states,
                                                  std::span<const Solid> walls, const Triple& gravity, double time,
                                                  double seconds);
+/// From where it is at `time` to another place in so many seconds. `turn`: of any length but 0.
+[[nodiscard]] Drive driveFrom(const BodyState& state, const Vector& centre, const std::array<double, 4>& turn,
+                              double time, double seconds);
 /// Gives a body what the fluid gave it in a step: linear and angular momentum, m^3 m/s and m^3 m^2/s.
 void pushBody(const Body& body, BodyState& state, const Vector& impulse, const Vector& twist, double seconds);
 

@@ -54,7 +54,7 @@ struct Side {
     const Body* body = nullptr;
     BodyState* state = nullptr;
 
-    [[nodiscard]] bool free() const { return body != nullptr && body->path.empty(); }
+    [[nodiscard]] bool free() const { return body != nullptr && body->free(); }
     [[nodiscard]] double mass() const { return double{body->density} * bodyVolume(*body); }
     [[nodiscard]] Vector velocityAt(const Vector& x) const {
         return body == nullptr ? Vector{} : plus(state->velocity, cross(state->spin, minus(x, state->centre)));

@@ -181,7 +181,22 @@ DeviceParticles Solver::onDevice() const {
     const State& s = *state_;
     return {s.buffers[s.odd ? Slot::PositionOut : Slot::PositionIn].buffer(),
             s.buffers[s.odd ? Slot::VelocityOut : Slot::VelocityIn].buffer(),
-            s.buffers[s.odd ? Slot::IdentityOut : Slot::IdentityIn].buffer(), s.counts.entries};
+            s.buffers[s.odd ? Slot::IdentityOut : Slot::IdentityIn].buffer(),
+            s.counts.entries,
+            s.counts.living,
+            s.counts.next_identity,
+            s.changing()};
+}
+
+void Solver::drive(std::size_t body, const Vector& centre, const std::array<double, 4>& turn, double seconds) {
+    State& s = *state_;
+    Drive& drive = s.settings.bodies.at(body).drive;
+    BodyState& state = s.bodies.at(body);
+    drive = driveFrom(state, centre, turn, s.time, seconds);
+    // Before the first step, as the rule for its length asks.
+    state.velocity = vk::times(1.0 / seconds, minus(drive.to, drive.from));
+    state.spin = drive.spin;
+    s.speed = std::max(s.speed, fastestPoint(s.settings.bodies, s.bodies));
 }
 
 std::uint32_t Solver::count() const {

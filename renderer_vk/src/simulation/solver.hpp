@@ -2,6 +2,7 @@
 // Position-based fluid on the device (Macklin & Mueller 2013). docs/simulation.md has the passes and their formulas.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -50,7 +51,10 @@ using StepWatch = std::function<bool(const StepReport&, bool kept)>;
 struct DeviceParticles {
     VkBuffer position = VK_NULL_HANDLE, velocity = VK_NULL_HANDLE;  ///< four floats each, the last is nothing
     VkBuffer identity = VK_NULL_HANDLE;
-    std::uint32_t count = 0;
+    std::uint32_t count = 0;       ///< of entries
+    std::uint32_t living = 0;      ///< those whose fourth number of position is 0
+    std::uint32_t identities = 0;  ///< every identity is below; as many as entries where nobody comes or goes
+    bool changing = false;         ///< somebody may
 };
 
 /// Every neighbour list, for tests: `list[i]` holds the identities of the neighbours of the particle with identity i.
@@ -91,6 +95,8 @@ class Solver {
     [[nodiscard]] double time() const;
     /// Those that live, in the order in which they were given; then the others in the order of their birth.
     [[nodiscard]] Result<ParticleState> read() const;
+    /// Sends a driven body straight on to another place, where it is after `seconds` > 0 more of simulated time.
+    void drive(std::size_t body, const Vector& centre, const std::array<double, 4>& turn, double seconds);
     /// Bodies in the order of the settings, after the last step: pose, motion, and what the fluid did to them in it.
     [[nodiscard]] std::span<const BodyState> bodies() const;
     /// Density of each particle that the last step moved, in densities of rest; walls count as fluid at rest. Who was

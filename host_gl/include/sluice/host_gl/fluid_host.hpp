@@ -93,6 +93,11 @@ class FluidHost {
     [[nodiscard]] virtual Status waitForSimulation(std::uint64_t value, std::uint64_t timeout_ns) = 0;
     /// Steps and times are those of the present renderer, values the caller's.
     [[nodiscard]] virtual Result<SluiceSimulationStats> simulationStats() = 0;
+    /// The bodies at the end of `value`, or, of 0, of the last that has been simulated; SLUICE_NOT_READY until it has.
+    /// UNSUPPORTED if the plugin serves ABI 1.1 only, as setBody is.
+    [[nodiscard]] virtual Result<SluiceBodies> simulationBodies(std::uint64_t value) = 0;
+    /// Where a driven body is to be at the end of the value that is asked for next.
+    [[nodiscard]] virtual Status setBody(std::uint32_t body, const SluiceBodyTarget& target) = 0;
 
     /// Copies colour and depth of the screen into the next image set on the GPU, signals, and submits frame k.
     /// On failure the host's frame is untouched and the next call starts a new frame.

@@ -166,7 +166,7 @@ struct Destroy : Carries<0, 0> {
     static void fields(Io& /*io*/, Self& /*m*/) {}
 };
 
-/// Without memory: the simulation ends. With it, in this order: solids, positions, velocities.
+/// Without memory: the simulation ends. With it: the arrays in the order of eachArray (sluice/simulation_arrays.hpp).
 struct SetSimulation : Carries<0, 1> {
     static constexpr std::string_view kName = "set_simulation";
     std::uint32_t has_velocity = 0;
@@ -194,6 +194,25 @@ struct SimulationStats : Carries<0, 0> {
     static void fields(Io& /*io*/, Self& /*m*/) {}
 };
 
+struct SimulationBodies : Carries<0, 0> {
+    static constexpr std::string_view kName = "simulation_bodies";
+    std::uint64_t value = 0;
+    template <typename Io, typename Self>
+    static void fields(Io& io, Self& m) {
+        io.number(m.value);
+    }
+};
+struct SetBody : Carries<0, 0> {
+    static constexpr std::string_view kName = "set_body";
+    std::uint32_t body = 0;
+    SluiceBodyTarget target{};
+    template <typename Io, typename Self>
+    static void fields(Io& io, Self& m) {
+        io.number(m.body);
+        io.abi(m.target);
+    }
+};
+
 // ---- renderer to host.
 
 /// The answer to Hello: what the plugin is.
@@ -215,7 +234,7 @@ struct Returned : Carries<0, 1> {
     std::uint64_t value = 0;
     std::string message;
     std::variant<std::monostate, SluiceRendererCapabilities, SluiceRendererInfo, SluiceFrameStats,
-                 SluiceSimulationStats>
+                 SluiceSimulationStats, SluiceBodies>
         filled;
     template <typename Io, typename Self>
     static void fields(Io& io, Self& m) {
@@ -311,10 +330,10 @@ struct Answer : Carries<0, 0> {
 };
 
 /// The number of a kind on the wire is its place here, so kinds are only ever appended.
-using Message =
-    std::variant<Hello, Describe, Explain, Create, Info, Resize, SetParticles, SetEnvironment, SubmitFrame, Poll,
-                 TimelineValue, TimelineExport, ProbeFormat, Destroy, Welcome, Returned, Log, TraceEvents, Line,
-                 ShareImage, RetireImage, Canary, Answer, SetSimulation, Simulate, SimulationStats>;
+using Message = std::variant<Hello, Describe, Explain, Create, Info, Resize, SetParticles, SetEnvironment, SubmitFrame,
+                             Poll, TimelineValue, TimelineExport, ProbeFormat, Destroy, Welcome, Returned, Log,
+                             TraceEvents, Line, ShareImage, RetireImage, Canary, Answer, SetSimulation, Simulate,
+                             SimulationStats, SimulationBodies, SetBody>;
 
 [[nodiscard]] std::string_view nameOf(const Message& message);
 

@@ -31,7 +31,10 @@ class Mapping {
 };
 
 /// The parts one after another in memory that nobody can change or resize any more.
-[[nodiscard]] Result<UniqueFd> sealedCopy(std::initializer_list<std::span<const std::byte>> parts);
+[[nodiscard]] Result<UniqueFd> sealedCopy(std::span<const std::span<const std::byte>> parts);
+[[nodiscard]] inline Result<UniqueFd> sealedCopy(std::initializer_list<std::span<const std::byte>> parts) {
+    return sealedCopy(std::span(parts.begin(), parts.size()));
+}
 /// Maps such a copy for reading. Refused: memory of another size, and memory that could still shrink (a read of it
 /// could then end this process with SIGBUS) or change while it is read.
 [[nodiscard]] Result<Mapping> mapSealed(const UniqueFd& fd, std::size_t size);

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#include "sluice/simulation_arrays.hpp"
+
+#include <fmt/format.h>
+
+namespace sluice {
+
+Status checkArrays(const SluiceSimulation& simulation) {
+    const SluiceSimulation& s = simulation;
+    if (s.particle_count == 0 && s.emitter_count == 0) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation.position",
+                     "expected particles or an emitter, found none", ""};
+    }
+    Status status;
+    eachArray(s, s.velocity != nullptr,
+              [&](const char* name, const auto* array, std::size_t elements, std::size_t most) {
+                  if (status && (elements > most || (elements > 0 && array == nullptr))) {
+                      const std::size_t step =
+                          most % 3 == 0 && most > SLUICE_MAX_EMITTERS ? 3 : 1;  // triples are told as such
+                      status = Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("simulation.{}", name),
+                                     fmt::format("expected at most {}, found {}{}", most / step, elements / step,
+                                                 array == nullptr ? " at NULL" : ""),
+                                     "give fewer, and an address"};
+                  }
+              });
+    return status;
+}
+
+Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& api) {
+    const SluiceSimulation& s = simulation;
+    if (api.simulation_bodies != nullptr && api.set_body != nullptr) {
+        return {};
+    }
+    const struct {
+        const char* name;
+        bool asked;
+    } all[] = {{"emitters", s.emitter_count > 0}, {"drains", s.drain_count > 0},     {"fields", s.field_count > 0},
+               {"bodies", s.body_count > 0},      {"meshes", s.mesh_count > 0},      {"tension", s.tension != 0.0F},
+               {"adhesion", s.adhesion != 0.0F},  {"overshoot", s.overshoot != 0.0F}};
+    for (const auto& [name, asked] : all) {
+        if (asked) {
+            return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("simulation.{}", name),
+                         fmt::format("the plugin serves ABI {}.{}, and that came with 1.2", api.abi_version >> 16U,
+                                     api.abi_version & 0xffffU),
+                         "use a newer plugin, or simulate into files"};
+        }
+    }
+    return {};
+}
+
+}  // namespace sluice

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: MIT
+// A renderer in whose inside a small fluid flows, and the same fluid by the solver alone.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core_fake_host.hpp"
+#include "simulation/solver.hpp"
+
+namespace sluice::vk::test {
+
+inline constexpr std::uint64_t kLong = 60'000'000'000;
+inline constexpr double kFrame = 1.0 / 60.0;
+
+/// A block of 6 x 8 x 6 particles that falls into its box, 2 m in front of the camera of frameOf.
+struct Block {
+    explicit Block(std::uint32_t frames_in_flight = 1) {
+        for (int i = 0; i < 6 * 8 * 6; ++i) {
+            position.push_back(-0.18F + 0.06F * static_cast<float>(i % 6));
+            position.push_back(-0.3F + 0.06F * static_cast<float>(i / 6 % 8));
+            const int layer = i / 48;
+            position.push_back(-2.18F + 0.06F * static_cast<float>(layer));
+        }
+        simulation = sized<SluiceSimulation>();
+        simulation.frames_in_flight = frames_in_flight;
+        simulation.radius = settings.radius = 0.03F;
+        settings.low = {-0.5F, -0.5F, -2.5F};
+        settings.high = {0.5F, 1.0F, -1.5F};
+        settings.solids = {sphereSolid({0.0F, -0.45F, -2.0F}, 0.1F)};
+        std::copy(settings.low.begin(), settings.low.end(), &simulation.low[0]);
+        std::copy(settings.high.begin(), settings.high.end(), &simulation.high[0]);
+        std::copy(settings.gravity.begin(), settings.gravity.end(), &simulation.gravity[0]);
+        simulation.iterations = settings.iterations;
+        simulation.relaxation = settings.relaxation;
+        simulation.tensile = settings.tensile;
+        simulation.viscosity = settings.viscosity;
+        simulation.cfl = settings.cfl;
+        simulation.longest_step = 1.0 / 120.0;
+        solid.kind = SLUICE_SOLID_SPHERE;
+        solid.a[1] = -0.45F;
+        solid.a[2] = -2.0F;
+        solid.radius = 0.1F;
+        simulation.solids = &solid;
+        simulation.solid_count = 1;
+        simulation.particle_count = static_cast<std::uint32_t>(position.size() / 3);
+        simulation.position = position.data();
+    }
+    Block(const Block&) = delete;
+    Block& operator=(const Block&) = delete;
+
+    SimulationSettings settings;
+    SluiceSolid solid{};
+    std::vector<float> position;
+    SluiceSimulation simulation{};
+    std::function<void(Solver&)> seen;  ///< of alone()
+};
+
+/// The fluid of `settings` by the solver alone, value by value; `seen` looks at the solver after each.
+inline std::vector<ParticleState> alone(const SimulationSettings& settings, const std::vector<float>& position,
+                                        double longest, std::uint64_t values,
+                                        const std::function<void(Solver&)>& seen = {}) {
+    std::vector<ParticleState> states;
+    DeviceRequest request;
+    request.match_host = false;
+    auto device = Device::create(request);
+    auto solver = Solver::create(*device.value(), settings);
+    EXPECT_TRUE(solver) << solver.error().message();
+    EXPECT_TRUE(solver.value()->setParticles(position, {}));
+    for (std::uint64_t value = 1; value <= values; ++value) {
+        if (value > 1) {
+            EXPECT_TRUE(solver.value()->advance(kFrame, longest));
+        }
+        states.push_back(solver.value()->read().value());
+        if (seen) {
+            seen(*solver.value());
+        }
+    }
+    return states;
+}
+
+class LiveFluid : public ::testing::Test {
+  protected:
+    void start(const Block& block, bool tracing = false, bool validation = true) {
+        renderer.reset();
+        host = std::make_unique<FakeHost>(tracing);
+        host->keep_descriptors = true;
+        SluiceCreateInfo info = host->createInfo();
+        info.validation = validation ? 1 : 0;
+        renderer = std::make_unique<TestRenderer>(*host, info);
+        ASSERT_EQ(renderer->result(), SLUICE_OK) << renderer->error().message;
+        auto error = sized<SluiceError>();
+        ASSERT_EQ(api().set_simulation(renderer->get(), &block.simulation, &error), SLUICE_OK) << error.message;
+    }
+    SluiceResult simulate(std::uint64_t value, double seconds) {
+        said = sized<SluiceError>();
+        return api().simulate(renderer->get(), value, seconds, &said);
+    }
+    /// Frame k with the fluid of `value`, and its colours.
+    std::vector<std::byte> draw(std::uint64_t k, std::uint64_t value) {
+        SluiceFrame frame = frameOf(k, 2, SLUICE_VIEW_FLUID);
+        frame.simulation = value;
+        EXPECT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
+        EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value), SLUICE_OK);
+        EXPECT_EQ(api().timeline_wait(renderer->get(), k, kLong), SLUICE_OK);
+        EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value + 1), SLUICE_OK);
+        return host->texels(SLUICE_IMAGE_FLUID_COLOUR, frame.image_set);
+    }
+    /// The pictures of the first values of `block` by the solver alone, given to the renderer as a host would.
+    std::vector<std::vector<std::byte>> uploaded(const Block& block, std::uint64_t values) {
+        std::vector<std::vector<std::byte>> pictures;
+        for (const ParticleState& state :
+             alone(block.settings, block.position, block.simulation.longest_step, values, block.seen)) {
+            auto particles = sized<SluiceParticles>();
+            particles.count = static_cast<std::uint32_t>(state.position.size() / 3);
+            particles.radius = block.simulation.radius;
+            particles.position = state.position.data();
+            EXPECT_EQ(api().set_particles(renderer->get(), &particles, nullptr), SLUICE_OK);
+            pictures.push_back(draw(pictures.size() + 1, 0));
+        }
+        return pictures;
+    }
+    SluiceSimulationStats stats() {
+        auto out = sized<SluiceSimulationStats>();
+        EXPECT_EQ(api().simulation_stats(renderer->get(), &out), SLUICE_OK);
+        return out;
+    }
+    SluiceFrameStats frameStats(std::uint64_t k) {
+        auto out = sized<SluiceFrameStats>();
+        EXPECT_EQ(api().poll(renderer->get(), k, &out), SLUICE_OK);
+        return out;
+    }
+    std::size_t logged(const std::string& text) const {
+        const auto lines = host->log();
+        return static_cast<std::size_t>(std::count_if(
+            lines.begin(), lines.end(), [&](const std::string& line) { return line.find(text) != std::string::npos; }));
+    }
+
+    SluiceBodies scratch = sized<SluiceBodies>();
+    std::unique_ptr<FakeHost> host;
+    std::unique_ptr<TestRenderer> renderer;
+    SluiceError said{};
+};
+
+}  // namespace sluice::vk::test
