@@ -2,10 +2,15 @@
 // libsluice.so in contexts that it did not make.
 #include <gtest/gtest.h>
 
+#include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <string>
 
 #include "caller.hpp"
+#include "hostile_state.hpp"
+#include "sluice/host_gl/screen.hpp"
 #include "sluice/host_gl/state_snapshot.hpp"
 
 extern "C" {
@@ -37,6 +42,18 @@ Seen lookAt(Sluice* fluid, GLuint framebuffer) {
     EXPECT_EQ(frame(fluid, 1.0), SLUICE_OK) << sluice_last_error(fluid);
     const auto after = pixels(framebuffer);
     return {changed(before, after, 0, kWidth / 3), changed(before, after, kWidth / 3, kWidth)};
+}
+
+/// Of whichever thread started them.
+std::vector<pid_t> childrenOfThisProcess() {
+    std::vector<pid_t> found;
+    for (const auto& task : std::filesystem::directory_iterator("/proc/self/task")) {
+        std::ifstream list(task.path() / "children");
+        for (pid_t child = 0; list >> child;) {
+            found.push_back(child);
+        }
+    }
+    return found;
 }
 
 class InContext : public ::testing::TestWithParam<Version> {};
@@ -89,6 +106,178 @@ TEST(Api, WithoutAContextSaysSo) {
     EXPECT_EQ(log.lines[0], sluice_last_error(nullptr));
 }
 
+/// The picture of the first frame, in which the fluid is where it was poured.
+std::vector<std::uint8_t> firstFrame(Sluice* fluid, GLuint framebuffer, bool encode = false) {
+    const Camera eye = camera();
+    EXPECT_EQ(sluice_begin_frame(fluid, eye.view.data(), eye.projection.data(), 1.0), SLUICE_OK);
+    drawRoom();
+    if (encode) {
+        glEnable(GL_FRAMEBUFFER_SRGB);
+    }
+    EXPECT_EQ(sluice_end_frame(fluid), SLUICE_OK) << sluice_last_error(fluid);
+    glDisable(GL_FRAMEBUFFER_SRGB);
+    return pixels(framebuffer);
+}
+
+std::vector<std::uint8_t> pictureIn(const Formats& formats, bool encode) {
+    const EglCaller caller({4, 5, false});
+    const Buffers screen(kWidth, kHeight, formats);
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME));
+    EXPECT_EQ(pour(fluid.get()), SLUICE_OK);
+    return firstFrame(fluid.get(), screen.name(), encode);
+}
+
+std::vector<std::uint8_t> pictureIn(const Window& window, bool encode) {
+    const EglCaller caller({4, 5, false}, window);
+    EXPECT_TRUE(caller.ok()) << "no such window";
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME, 0, 0));
+    EXPECT_EQ(pour(fluid.get()), SLUICE_OK);
+    return firstFrame(fluid.get(), 0, encode);
+}
+
+TEST(Api, ThePictureIsTheSameInEveryFramebuffer) {
+    const auto plain = pictureIn(Formats{}, false);
+    EXPECT_EQ(pictureIn(Formats{GL_RGBA8, GL_DEPTH24_STENCIL8, 4}, false), plain) << "four samples";
+    EXPECT_EQ(pictureIn(Formats{GL_RGBA8, GL_DEPTH_COMPONENT32F, 0}, false), plain) << "float depth";
+    EXPECT_EQ(pictureIn(Formats{GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT24, 0}, false), plain) << "sRGB, off";
+    EXPECT_EQ(pictureIn(Formats{GL_SRGB8_ALPHA8, GL_DEPTH_COMPONENT24, 0}, true), plain) << "sRGB, on";
+    EXPECT_EQ(pictureIn(Formats{GL_SRGB8_ALPHA8, GL_DEPTH24_STENCIL8, 4}, true), plain) << "sRGB, on, four samples";
+    EXPECT_EQ(pictureIn(Window{}, false), plain) << "a window";
+    EXPECT_EQ(pictureIn(Window{kWidth, kHeight, 4, false}, false), plain) << "a window of four samples";
+    EXPECT_EQ(pictureIn(Window{kWidth, kHeight, 0, true}, true), plain) << "a window in sRGB";
+}
+
+TEST(Api, ThePictureIsTheSameWithAHostileState) {
+    const EglCaller caller({4, 5, false});
+    const Buffers screen(kWidth, kHeight, {});
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME));
+    ASSERT_EQ(pour(fluid.get()), SLUICE_OK);
+    const host::Screen seen = host::Screen::borrowed(screen.name(), kWidth, kHeight);
+    static_cast<void>(firstFrame(fluid.get(), screen.name()));
+    const host::Pixels plain = host::readColour(seen, nullptr);
+    const Camera eye = camera();
+    ASSERT_EQ(sluice_begin_frame(fluid.get(), eye.view.data(), eye.projection.data(), 1.0), SLUICE_OK);
+    drawRoom();
+    {
+        const host::test::HostileState hostile(screen.name());
+        const host::StateSnapshot before = host::takeStateSnapshot();
+        EXPECT_EQ(sluice_end_frame(fluid.get()), SLUICE_OK) << sluice_last_error(fluid.get());
+        EXPECT_EQ(host::differences(before, host::takeStateSnapshot()), std::vector<std::string>{});
+    }
+    EXPECT_EQ(host::readColour(seen, nullptr).values, plain.values);
+    EXPECT_EQ(log.lines, std::vector<std::string>{});
+}
+
+TEST(Api, TheWindowsSizeIsFollowed) {
+    EglCaller caller({2, 1, false}, Window{});
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME, 0, 0));
+    ASSERT_EQ(pour(fluid.get()), SLUICE_OK);
+    for (const GLsizei width : {96, 150, 60}) {
+        caller.resize(width, kHeight);
+        glViewport(0, 0, 2 * width, 2 * kHeight);  // what the engine draws with is its own affair
+        ASSERT_EQ(frame(fluid.get(), 1.0, width, kHeight), SLUICE_OK) << sluice_last_error(fluid.get());
+        SluiceStatistics statistics{};
+        statistics.struct_size = sizeof(statistics);
+        ASSERT_EQ(sluice_statistics(fluid.get(), &statistics), SLUICE_OK);
+        EXPECT_EQ(statistics.width, static_cast<std::uint32_t>(width));
+        EXPECT_EQ(statistics.height, static_cast<std::uint32_t>(kHeight));
+        EXPECT_EQ(statistics.renderers, 1U);
+    }
+}
+
+TEST(Api, AFramebufferThatIsTooSmallOrHasNoDepthIsLeftAlone) {
+    const EglCaller caller({2, 1, false});
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME));
+    ASSERT_EQ(pour(fluid.get()), SLUICE_OK);
+    const Buffers small(kWidth / 2, kHeight, {});
+    drawRoom(kWidth / 2);
+    const auto before = pixels(small.name(), kWidth / 2);
+    for (int repeated = 0; repeated < 3; ++repeated) {
+        EXPECT_EQ(frame(fluid.get(), 1.0, kWidth / 2), SLUICE_ERROR_INVALID_ARGUMENT);
+    }
+    EXPECT_EQ(pixels(small.name(), kWidth / 2), before);
+    ASSERT_EQ(log.lines.size(), 1U) << "a failure is told once";
+    EXPECT_NE(log.lines[0].find("48x64"), std::string::npos) << log.lines[0];
+    const Buffers flat(kWidth, kHeight, {});
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, 0);
+    EXPECT_EQ(frame(fluid.get(), 1.0), SLUICE_ERROR_UNSUPPORTED);
+    EXPECT_NE(std::string(sluice_last_error(fluid.get())).find("has no depth"), std::string::npos);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    const Buffers right(kWidth, kHeight, {});
+    EXPECT_EQ(frame(fluid.get(), 1.0), SLUICE_OK) << sluice_last_error(fluid.get());
+}
+
+TEST(Api, AnotherContextInTheMiddleOfEverything) {
+    Log log;
+    Fluid fluid;
+    {
+        EglCaller first({2, 1, false}, Window{});
+        fluid = make(options(log, SLUICE_PROCESS_SAME, 0, 0));
+        ASSERT_EQ(pour(fluid.get()), SLUICE_OK);
+        ASSERT_EQ(frame(fluid.get(), 1.0), SLUICE_OK) << sluice_last_error(fluid.get());
+        const Camera eye = camera();
+        ASSERT_EQ(sluice_begin_frame(fluid.get(), eye.view.data(), eye.projection.data(), 1.1), SLUICE_OK);
+        first.destroyContext();
+        EXPECT_EQ(sluice_end_frame(fluid.get()), SLUICE_ERROR_INVALID_ARGUMENT);
+        EXPECT_EQ(sluice_begin_frame(fluid.get(), eye.view.data(), eye.projection.data(), 1.2),
+                  SLUICE_ERROR_INVALID_ARGUMENT);
+    }
+    const EglCaller second({4, 5, true}, Window{});
+    // Names that the Sluice had in the first context are the engine's in this one.
+    std::array<GLuint, 64> textures{};
+    glGenTextures(64, textures.data());
+    for (const GLuint name : textures) {
+        glBindTexture(GL_TEXTURE_2D, name);
+    }
+    const Seen seen = lookAt(fluid.get(), 0);
+    EXPECT_EQ(seen.wall, 0);
+    EXPECT_GT(seen.open, 300);
+    for (const GLuint name : textures) {
+        EXPECT_EQ(glIsTexture(name), GL_TRUE);
+    }
+    SluiceStatistics statistics{};
+    statistics.struct_size = sizeof(statistics);
+    ASSERT_EQ(sluice_statistics(fluid.get(), &statistics), SLUICE_OK);
+    EXPECT_EQ(statistics.contexts, 2U);
+    EXPECT_EQ(statistics.frames, 2U);
+    EXPECT_EQ(statistics.frames_without, 1U);
+}
+
+TEST(Api, ADestroyWithoutItsContextAsksNothingOfGl) {
+    Log log;
+    Fluid fluid;
+    {
+        const EglCaller caller({}, Window{});
+        fluid = make(options(log, SLUICE_PROCESS_SAME, 0, 0));
+        ASSERT_EQ(pour(fluid.get()), SLUICE_OK);
+        ASSERT_EQ(frame(fluid.get(), 1.0), SLUICE_OK);
+    }
+    fluid.reset();
+    EXPECT_EQ(log.lines, std::vector<std::string>{});
+}
+
+TEST(Api, SwitchedOffItCostsAndChangesNothing) {
+    const EglCaller caller({});
+    const Buffers screen(kWidth, kHeight, {});
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME));
+    drawRoom();
+    const auto before = pixels(screen.name());
+    EXPECT_EQ(frame(fluid.get(), 1.0), SLUICE_OK) << "without water";
+    ASSERT_EQ(pour(fluid.get()), SLUICE_OK);
+    ASSERT_EQ(sluice_set_enabled(fluid.get(), 0), SLUICE_OK);
+    EXPECT_EQ(frame(fluid.get(), 1.1), SLUICE_OK);
+    EXPECT_EQ(pixels(screen.name()), before);
+    ASSERT_EQ(sluice_set_enabled(fluid.get(), 1), SLUICE_OK);
+    EXPECT_EQ(frame(fluid.get(), 1.2), SLUICE_OK);
+    EXPECT_NE(pixels(screen.name()), before);
+}
+
 TEST(Api, InAProcessOfItsOwn) {
     const EglCaller caller({});
     const Buffers screen(kWidth, kHeight, {});
@@ -100,6 +289,24 @@ TEST(Api, InAProcessOfItsOwn) {
     EXPECT_EQ(seen.wall, 0);
     EXPECT_GT(seen.open, 300);
     EXPECT_EQ(log.lines, std::vector<std::string>{});
+
+    const std::vector<pid_t> children = childrenOfThisProcess();
+    ASSERT_EQ(children.size(), 1U);
+    ASSERT_EQ(::kill(children[0], SIGKILL), 0);
+    drawRoom();
+    const auto without = pixels(screen.name());
+    SluiceResult result = SLUICE_ERROR_DEVICE_LOST;
+    for (int frames = 0; frames < 40 && (result != SLUICE_OK || log.lines.empty()); ++frames) {
+        result = frame(fluid.get(), 1.1);
+    }
+    EXPECT_EQ(result, SLUICE_OK) << sluice_last_error(fluid.get());
+    EXPECT_NE(pixels(screen.name()), without);
+    SluiceStatistics statistics{};
+    statistics.struct_size = sizeof(statistics);
+    ASSERT_EQ(sluice_statistics(fluid.get(), &statistics), SLUICE_OK);
+    EXPECT_EQ(statistics.renderers, 2U);
+    EXPECT_LE(log.lines.size(), 3U) << log.lines.back();
+    EXPECT_NE(log.lines[0].find("SIGKILL"), std::string::npos) << log.lines[0];
 }
 
 }  // namespace

@@ -6,10 +6,31 @@
 
 namespace sluice::test {
 
-EglCaller::EglCaller(const Version& version) {
+EglCaller::EglCaller(const Version& version, const std::optional<Window>& window) {
     display_ = eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, nullptr, nullptr);
     eglInitialize(display_, nullptr, nullptr);
     eglBindAPI(EGL_OPENGL_API);
+    if (window) {
+        const std::array<EGLint, 13> wanted{EGL_SURFACE_TYPE,
+                                            EGL_PBUFFER_BIT,
+                                            EGL_RENDERABLE_TYPE,
+                                            EGL_OPENGL_BIT,
+                                            EGL_DEPTH_SIZE,
+                                            24,
+                                            EGL_SAMPLES,
+                                            window->samples,
+                                            EGL_ALPHA_SIZE,
+                                            8,
+                                            EGL_SAMPLE_BUFFERS,
+                                            window->samples > 0 ? 1 : 0,
+                                            EGL_NONE};
+        EGLint count = 0;
+        if (eglChooseConfig(display_, wanted.data(), &config_, 1, &count) != EGL_TRUE || count == 0) {
+            return;
+        }
+        srgb_ = window->srgb;
+        surface_ = makeSurface(window->width, window->height);
+    }
     const std::array<EGLint, 7> asked{
         EGL_CONTEXT_MAJOR_VERSION,
         version.major,
@@ -18,16 +39,43 @@ EglCaller::EglCaller(const Version& version) {
         EGL_CONTEXT_OPENGL_PROFILE_MASK,
         version.core ? EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT : EGL_CONTEXT_OPENGL_COMPATIBILITY_PROFILE_BIT,
         EGL_NONE};
-    context_ = eglCreateContext(display_, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, asked.data());
+    context_ = eglCreateContext(display_, config_, EGL_NO_CONTEXT, asked.data());
+    makeCurrent();
+}
+
+EGLSurface EglCaller::makeSurface(EGLint width, EGLint height) const {
+    const std::array<EGLint, 7> asked{EGL_WIDTH,         width,
+                                      EGL_HEIGHT,        height,
+                                      EGL_GL_COLORSPACE, srgb_ ? EGL_GL_COLORSPACE_SRGB : EGL_GL_COLORSPACE_LINEAR,
+                                      EGL_NONE};
+    return eglCreatePbufferSurface(display_, config_, asked.data());
+}
+
+void EglCaller::resize(EGLint width, EGLint height) {
+    EGLSurface old = surface_;
+    surface_ = makeSurface(width, height);
+    makeCurrent();
+    eglDestroySurface(display_, old);
+}
+
+void EglCaller::makeCurrent() const {
     if (ok()) {
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+        eglMakeCurrent(display_, surface_, surface_, context_);
     }
 }
 
-EglCaller::~EglCaller() {
+void EglCaller::destroyContext() {
     eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     if (ok()) {
         eglDestroyContext(display_, context_);
+    }
+    context_ = EGL_NO_CONTEXT;
+}
+
+EglCaller::~EglCaller() {
+    destroyContext();
+    if (surface_ != EGL_NO_SURFACE) {
+        eglDestroySurface(display_, surface_);
     }
 }
 

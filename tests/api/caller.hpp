@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,23 +16,44 @@
 
 namespace sluice::test {
 
+inline constexpr GLsizei kWidth = 96;
+inline constexpr GLsizei kHeight = 64;
+
 struct Version {
     int major = 2, minor = 1;
     bool core = false;
 };
 
-/// An EGL context of Mesa's surfaceless platform, current on this thread while it lives.
+/// What the window is like, where there is one.
+struct Window {
+    EGLint width = kWidth, height = kHeight;
+    EGLint samples = 0;
+    bool srgb = false;
+};
+
+/// An EGL context of Mesa's surfaceless platform, current on this thread while it lives; with a pbuffer for a window if
+/// one is asked for.
 class EglCaller {
   public:
-    explicit EglCaller(const Version& version);
+    explicit EglCaller(const Version& version, const std::optional<Window>& window = std::nullopt);
     ~EglCaller();
     EglCaller(const EglCaller&) = delete;
     EglCaller& operator=(const EglCaller&) = delete;
     [[nodiscard]] bool ok() const { return context_ != EGL_NO_CONTEXT; }
+    /// Another window in the place of the first, as one that has been resized.
+    void resize(EGLint width, EGLint height);
+    void makeCurrent() const;
+    /// The engine's own end of the context, while a Sluice still lives in it.
+    void destroyContext();
 
   private:
+    [[nodiscard]] EGLSurface makeSurface(EGLint width, EGLint height) const;
+
     EGLDisplay display_ = EGL_NO_DISPLAY;
+    EGLConfig config_ = EGL_NO_CONFIG_KHR;
+    EGLSurface surface_ = EGL_NO_SURFACE;
     EGLContext context_ = EGL_NO_CONTEXT;
+    bool srgb_ = false;
 };
 
 struct Formats {
@@ -52,9 +74,6 @@ class Buffers {
   private:
     GLuint framebuffer_ = 0, colour_ = 0, depth_ = 0;
 };
-
-inline constexpr GLsizei kWidth = 96;
-inline constexpr GLsizei kHeight = 64;
 
 /// Clears to a dark green at the far plane, and puts a red wall, near enough to hide all fluid, over the left third:
 /// with scissored clears, which every profile has.

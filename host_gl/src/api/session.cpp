@@ -270,12 +270,17 @@ Status Session::beginFrame(const float* view, const float* projection, double ti
     }
     // What has not been drawn yet is not left behind: an engine that skips frames must not pile up steps.
     if (!pending_) {
-        if (Status status = host_->simulate(value_ + 1, value_ == 0 ? 0.0 : owed_); !status) {
+        const Status status = host_->simulate(value_ + 1, value_ == 0 ? 0.0 : owed_);
+        if (!status && !host_->recovering()) {
             return status;
         }
+        // The number is spent even where a renderer was lost over it: the next one begins with it.
         ++value_;
         owed_ = 0.0;
         pending_ = true;
+        if (!status) {
+            return status;
+        }
     }
     return camera;
 }

@@ -47,7 +47,8 @@ class Session {
     void setEnabled(bool enabled) { enabled_ = enabled; }
     [[nodiscard]] Result<SluiceStatistics> statistics();
 
-    /// `status` again: a failure is kept as the last error, and told to the log unless it said so the last time.
+    /// Its code: a failure is kept as the last error, and told to the log unless it was the last to be told and no
+    /// fluid has been drawn since.
     SluiceResult told(const Status& status);
     [[nodiscard]] const char* lastError() const { return last_error_.c_str(); }
 

@@ -28,6 +28,9 @@ Status Session::endFrame() {
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     end_frame_seconds_ = took.count();
     ++(status ? frames_ : frames_without_);
+    if (status) {
+        last_told_.clear();
+    }
     return status;
 }
 
@@ -179,7 +182,6 @@ Result<SluiceStatistics> Session::statistics() {
 
 SluiceResult Session::told(const Status& status) {
     if (status) {
-        last_told_.clear();
         return SLUICE_OK;
     }
     last_error_ = status.error().message();
