@@ -11,7 +11,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
 #define PI 3.14159265358979f
 #define TEXTURE_SIZE 64
 
@@ -19,8 +18,8 @@ static int win_width = 640, win_height = 480;
 static int last_frame = 0;                 /* 0: run until somebody leaves */
 static const char *shot_name = NULL;
 static int frame = 0, paused = 0;
-static float now = 0.0f;                   /* seconds */
-static float eye_angle = 35.0f, eye_distance = 5.0f;
+static float now = 0.0f; /* seconds */
+static float eye_angle = 20.0f, eye_distance = 5.0f;
 static GLuint floor_texture, stone_texture;
 static GLuint room_list, basin_list, pillar_list;
 
@@ -238,7 +237,7 @@ static void idle(void)
 
 static void reshape(int width, int height)
 {
-    win_width = width > 0 ? width : 1;
+    win_width = width;
     win_height = height > 0 ? height : 1;
     glViewport(0, 0, win_width, win_height);
 }

@@ -278,6 +278,55 @@ TEST(Api, SwitchedOffItCostsAndChangesNothing) {
     EXPECT_NE(pixels(screen.name()), before);
 }
 
+TEST(Api, AnEmitterPoursAndABodyIsWhereItIsDriven) {
+    const EglCaller caller({});
+    const Buffers screen(kWidth, kHeight, {});
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME));
+    SluiceEmitter tap{};
+    tap.centre[1] = 1.5F;
+    tap.direction[1] = -1.0F;
+    tap.width = 0.4F;
+    tap.height = 0.4F;
+    tap.speed = 2.0F;
+    SluiceBody ball{};
+    ball.shape = SLUICE_SOLID_SPHERE;
+    ball.motion = SLUICE_BODY_DRIVEN;
+    ball.half[0] = 0.2F;
+    ball.half[1] = 0.2F;
+    ball.half[2] = 0.2F;
+    ball.centre[1] = 0.3F;
+    SluiceWater water{};
+    sluice_water_defaults(&water, sizeof(water));
+    water.radius = 0.08F;
+    water.emitter_count = 1;
+    water.emitters = &tap;
+    water.max_particles = 2000;
+    water.body_count = 1;
+    water.bodies = &ball;
+    ASSERT_EQ(sluice_set_water(fluid.get(), &water), SLUICE_OK) << sluice_last_error(fluid.get());
+    SluiceBodies bodies{};
+    bodies.struct_size = sizeof(bodies);
+    EXPECT_EQ(sluice_bodies(fluid.get(), &bodies), SLUICE_NOT_READY);
+    for (int k = 0; k < 6; ++k) {
+        SluiceBodyTarget target{};
+        target.struct_size = sizeof(target);
+        target.centre[0] = 0.05F * static_cast<float>(k);
+        target.centre[1] = 0.3F;
+        target.turn[3] = 1.0F;
+        ASSERT_EQ(sluice_set_body(fluid.get(), 0, &target), SLUICE_OK) << sluice_last_error(fluid.get());
+        ASSERT_EQ(frame(fluid.get(), 1.0 + 0.04 * k), SLUICE_OK) << sluice_last_error(fluid.get());
+    }
+    ASSERT_EQ(sluice_bodies(fluid.get(), &bodies), SLUICE_OK) << sluice_last_error(fluid.get());
+    ASSERT_EQ(bodies.count, 1U);
+    EXPECT_NEAR(bodies.bodies[0].centre[0], 0.25F, 1e-3F);
+    SluiceStatistics statistics{};
+    statistics.struct_size = sizeof(statistics);
+    ASSERT_EQ(sluice_statistics(fluid.get(), &statistics), SLUICE_OK);
+    EXPECT_GT(statistics.particles, 4U);
+    EXPECT_EQ(log.lines, std::vector<std::string>{});
+}
+
 TEST(Api, InAProcessOfItsOwn) {
     const EglCaller caller({});
     const Buffers screen(kWidth, kHeight, {});

@@ -146,11 +146,28 @@ typedef struct SluiceWater {
     uint32_t steps_per_second; /* at least; fast fluid takes more. 240 */
     float viscosity;           /* 0.02 */
     float vorticity;           /* 0 */
+    float tension, adhesion;   /* m/s^2; 0 */
+    uint32_t max_particles;    /* at which emitters stop; 0: 100,000 more than the blocks hold, without emitters none */
+    uint32_t emitter_count, drain_count, field_count, body_count;
+    const SluiceEmitter* emitters; /* nozzles, from whose opening fluid comes */
+    const SluiceDrain* drains;     /* and where it goes */
+    const SluiceForceField* fields;
+    const SluiceBody* bodies;      /* that float, or go where the engine says: sluice_set_body */
+    uint32_t path_point_count, mesh_count, mesh_corner_count, mesh_triangle_count;
+    const SluicePathPoint* path_points; /* these four as in SluiceSimulation */
+    const SluiceMesh* meshes;
+    const float* mesh_corners;
+    const uint32_t* mesh_indices;
 } SluiceWater;
 SLUICE_EXPORT void sluice_water_defaults(SluiceWater* water, size_t struct_size);
 
 /* Let this fluid begin; NULL: no fluid. */
 SLUICE_EXPORT SluiceResult sluice_set_water(Sluice* fluid, const SluiceWater* water);
+
+/* Where a driven body is to be at the end of the frame that begins next. */
+SLUICE_EXPORT SluiceResult sluice_set_body(Sluice* fluid, uint32_t body, const SluiceBodyTarget* target);
+/* Where all bodies are, as far as has been simulated: what the engine draws them at. SLUICE_NOT_READY at the start. */
+SLUICE_EXPORT SluiceResult sluice_bodies(Sluice* fluid, SluiceBodies* bodies);
 
 /* How it looks. */
 SLUICE_EXPORT void sluice_look_defaults(SluiceFluid* look);

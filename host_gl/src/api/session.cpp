@@ -94,14 +94,6 @@ std::optional<Matrix> kept(const float* matrix) {
 
 }  // namespace
 
-SluiceEnvironment KeptEnvironment::view() const {
-    auto out = sized<SluiceEnvironment>();
-    out.width = width;
-    out.height = height;
-    out.pixels = pixels.data();
-    return out;
-}
-
 Result<std::unique_ptr<Session>> Session::create(const SluiceOptions& options) {
     const CurrentContext context = currentContext();
     if (context.kind == ContextKind::None) {
@@ -178,17 +170,13 @@ Status Session::start(const CurrentContext& context, const Extent& extent) {
 }
 
 Status Session::giveScene() {
-    if (environment_) {
-        const SluiceEnvironment environment = environment_->view();
-        if (Status status = host_->setEnvironment(&environment); !status) {
+    if (const std::optional<SluiceEnvironment> environment = scene_.environment()) {
+        if (Status status = host_->setEnvironment(&*environment); !status) {
             return status;
         }
     }
-    if (!water_) {
-        return {};
-    }
-    const SluiceSimulation simulation = water_->view();
-    return host_->setSimulation(&simulation);
+    const std::optional<SluiceSimulation> simulation = scene_.simulation();
+    return simulation ? host_->setSimulation(&*simulation) : Status{};
 }
 
 Status Session::settle(const std::optional<Extent>& wanted) {

@@ -6,24 +6,17 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
+#include <utility>
 
 #include "api/camera.hpp"
 #include "api/current_context.hpp"
 #include "api/log_sink.hpp"
 #include "api/target.hpp"
-#include "api/water.hpp"
+#include "frame/kept_scene.hpp"
 #include "sluice/host_gl/fluid_host.hpp"
 #include "sluice/sluice.h"
 
 namespace sluice::host {
-
-/// An environment map of its own.
-struct KeptEnvironment {
-    std::uint32_t width = 0, height = 0;
-    std::vector<float> pixels;
-    [[nodiscard]] SluiceEnvironment view() const;
-};
 
 /// Every call is one of sluice/sluice.h, on the thread of the context. What it promises of GL state holds of each.
 class Session {
@@ -41,6 +34,8 @@ class Session {
     [[nodiscard]] Status endFrame();
 
     [[nodiscard]] Status setWater(const SluiceWater* water);
+    [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget* target);
+    [[nodiscard]] Status bodies(SluiceBodies* bodies);
     [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment);
     void setLook(const SluiceFluid& look) { look_ = look; }
     void setSky(const SluiceSky& sky) { sky_ = sky; }
@@ -61,7 +56,7 @@ class Session {
           timeline_(static_cast<SluiceTimelineKind>(options.timeline)) {}
 
     /// There is fluid to be drawn.
-    [[nodiscard]] bool active() const { return enabled_ && water_.has_value(); }
+    [[nodiscard]] bool active() const { return enabled_ && has_water_; }
     /// The present context is the one that the FluidHost lives in, and its objects are there.
     [[nodiscard]] bool reachable() const;
     /// A FluidHost in the present context, of the right size, with the scene that was asked for.
@@ -78,8 +73,9 @@ class Session {
     bool follows_drawable_;
     SluiceTimelineKind timeline_;
 
-    std::optional<Water> water_;
-    std::optional<KeptEnvironment> environment_;
+    KeptScene scene_;  ///< environment and simulation, for another context
+    bool has_water_ = false;
+    std::uint32_t particles_ = 0;  ///< at the start
     SluiceFluid look_{};
     SluiceSky sky_{};
     bool enabled_ = true;

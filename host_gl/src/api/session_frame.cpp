@@ -10,6 +10,8 @@
 
 #include "api/session.hpp"
 #include "api/struct_sizes.hpp"
+#include "api/water.hpp"
+#include "frame/check_info.hpp"
 #include "share/gl_errors.hpp"
 
 namespace sluice::host {
@@ -98,18 +100,23 @@ Status Session::draw() {
 }
 
 Status Session::setWater(const SluiceWater* asked) {
-    if (asked == nullptr) {
-        water_.reset();
-    } else {
+    Water water;
+    SluiceSimulation simulation{};
+    if (asked != nullptr) {
         if (Status status = checkAbiStruct(asked, "water"); !status) {
             return status;
         }
-        Result<Water> made = makeWater(readAbiStruct(*asked));
+        const SluiceWater known = readAbiStruct(*asked);
+        Result<Water> made = makeWater(known);
         if (!made) {
             return made.error();
         }
-        water_ = std::move(made).value();
+        water = std::move(made).value();
+        simulation = water.view();
     }
+    scene_.keep(asked != nullptr ? &simulation : nullptr);
+    has_water_ = asked != nullptr;
+    particles_ = water.count();
     value_ = 0;
     owed_ = 0.0;
     pending_ = false;
@@ -117,38 +124,49 @@ Status Session::setWater(const SluiceWater* asked) {
         return {};  // the next frame's context gets it
     }
     const GlErrorScope errors;
-    const SluiceSimulation view = water_ ? water_->view() : SluiceSimulation{};
-    Status status = host_->setSimulation(water_ ? &view : nullptr);
-    if (!status && status.error().code == SLUICE_ERROR_INVALID_ARGUMENT) {
-        water_.reset();
+    Status status = host_->setSimulation(asked != nullptr ? &simulation : nullptr);
+    if (!status &&
+        (status.error().code == SLUICE_ERROR_INVALID_ARGUMENT || status.error().code == SLUICE_ERROR_UNSUPPORTED)) {
+        // Another context's renderer would refuse it, too.
+        scene_.keep(static_cast<const SluiceSimulation*>(nullptr));
+        has_water_ = false;
     }
     return status;
 }
 
-Status Session::setEnvironment(const SluiceEnvironment* asked) {
-    if (asked == nullptr) {
-        environment_.reset();
-    } else {
-        if (Status status = checkAbiStruct(asked, "environment"); !status) {
-            return status;
-        }
-        if (asked->pixels == nullptr || asked->width == 0 || asked->height == 0 || asked->width > SLUICE_MAX_EXTENT ||
-            asked->height > SLUICE_MAX_EXTENT) {
-            return Error{SLUICE_ERROR_INVALID_ARGUMENT, "environment",
-                         fmt::format("expected pixels of 1..{} a side, found {}x{} at {}", SLUICE_MAX_EXTENT,
-                                     asked->width, asked->height, asked->pixels == nullptr ? "NULL" : "some address"),
-                         "pass a NULL environment for the sky"};
-        }
-        const std::size_t count = std::size_t{asked->width} * asked->height * 3;
-        const std::span pixels(asked->pixels, count);
-        environment_ = KeptEnvironment{asked->width, asked->height, {pixels.begin(), pixels.end()}};
+Status Session::setBody(std::uint32_t body, const SluiceBodyTarget* target) {
+    if (Status status = checkAbiStruct(target, "target"); !status) {
+        return status;
     }
+    if (!active() || !reachable()) {
+        return {};
+    }
+    const GlErrorScope errors;
+    return host_->setBody(body, readAbiStruct(*target));
+}
+
+Status Session::bodies(SluiceBodies* bodies) {
+    if (Status status = checkAbiStruct(bodies, "bodies"); !status) {
+        return status;
+    }
+    const GlErrorScope errors;
+    Result<SluiceBodies> found =
+        active() && reachable() && value_ > 0
+            ? host_->simulationBodies(0)
+            : Result<SluiceBodies>(Error{SLUICE_NOT_READY, "bodies", "nothing has been simulated yet", ""});
+    return found ? writeAbiStruct(bodies, found.value(), "bodies") : Status{found.error()};
+}
+
+Status Session::setEnvironment(const SluiceEnvironment* asked) {
+    if (Status status = checkPart(asked); !status) {
+        return status;
+    }
+    scene_.keep(asked);
     if (!reachable()) {
         return {};
     }
     const GlErrorScope errors;
-    const SluiceEnvironment view = environment_ ? environment_->view() : SluiceEnvironment{};
-    return host_->setEnvironment(environment_ ? &view : nullptr);
+    return host_->setEnvironment(asked);
 }
 
 Result<SluiceStatistics> Session::statistics() {
@@ -156,7 +174,7 @@ Result<SluiceStatistics> Session::statistics() {
     out.frames = frames_;
     out.frames_without = frames_without_;
     out.contexts = contexts_;
-    out.particles = water_ ? water_->count() : 0;
+    out.particles = has_water_ ? particles_ : 0;
     out.end_frame_seconds = end_frame_seconds_;
     if (!reachable()) {
         return out;
@@ -183,6 +201,9 @@ Result<SluiceStatistics> Session::statistics() {
 SluiceResult Session::told(const Status& status) {
     if (status) {
         return SLUICE_OK;
+    }
+    if (status.error().code > 0) {
+        return status.error().code;  // not yet is no failure
     }
     last_error_ = status.error().message();
     // The FluidHost itself tells of a renderer that it replaces, with what it is about to do.

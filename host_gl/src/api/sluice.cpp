@@ -12,6 +12,7 @@
 #include "api/log_sink.hpp"
 #include "api/session.hpp"
 #include "api/struct_sizes.hpp"
+#include "api/water.hpp"
 #include "sluice/defaults.hpp"
 
 struct Sluice {
@@ -165,6 +166,14 @@ void sluice_water_defaults(SluiceWater* water, size_t struct_size) {
 
 SluiceResult sluice_set_water(Sluice* fluid, const SluiceWater* water) {
     return call(fluid, [&](sluice::host::Session& session) { return session.setWater(water); });
+}
+
+SluiceResult sluice_set_body(Sluice* fluid, uint32_t body, const SluiceBodyTarget* target) {
+    return call(fluid, [&](sluice::host::Session& session) { return session.setBody(body, target); });
+}
+
+SluiceResult sluice_bodies(Sluice* fluid, SluiceBodies* bodies) {
+    return call(fluid, [&](sluice::host::Session& session) { return session.bodies(bodies); });
 }
 
 void sluice_look_defaults(SluiceFluid* look) {

@@ -11,6 +11,7 @@
 #include <span>
 
 #include "sluice/abi_sizes.hpp"
+#include "sluice/simulation_arrays.hpp"
 
 namespace sluice::host {
 
@@ -21,6 +22,9 @@ using Vec3 = std::array<double, 3>;
 // A million particles take lavapipe seconds a frame and a graphics card some 20 ms; ten times that is a slip of the
 // radius's decimal point.
 constexpr std::uint64_t kMostParticles = 10'000'000;
+
+/// What emitters may add where nobody says how much: some frames a second on a CPU, and nothing to a graphics card.
+constexpr std::uint32_t kEmitted = 100'000;
 
 // As scenes have them (docs/simulation.md tells what each does).
 constexpr float kRelaxation = 0.1F;
@@ -92,8 +96,11 @@ Status check(const SluiceWater& w) {
     if (w.block_count > 0 && w.blocks == nullptr) {
         return wrong("blocks", fmt::format("it is NULL with a count of {}", w.block_count), "");
     }
-    if (w.solid_count > 0 && w.solids == nullptr) {
-        return wrong("solids", fmt::format("it is NULL with a count of {}", w.solid_count), "");
+    if (w.solid_count > kMostSolids || (w.solid_count > 0 && w.solids == nullptr)) {
+        return wrong("solids",
+                     fmt::format("expected at most {}, found {}{}", kMostSolids, w.solid_count,
+                                 w.solids == nullptr ? " at NULL" : ""),
+                     "");
     }
     if (w.steps_per_second == 0 || w.iterations == 0) {
         return wrong("steps_per_second and iterations",
@@ -140,7 +147,8 @@ Result<Lattice> latticeOf(const SluiceBlock& block, float radius) {
     return lattice;
 }
 
-void fill(Water& water, const SluiceBlock& block, const Lattice& lattice, float radius) {
+void fill(Water& water, const SluiceBlock& block, const Lattice& lattice, float radius,
+          std::span<const SluiceSolid> solids) {
     const double spacing = 2.0 * double{radius};
     for (std::uint64_t i = 0; i < lattice.sites(); ++i) {
         const std::array<std::uint64_t, 3> site{i % lattice.count[0], i / lattice.count[0] % lattice.count[1],
@@ -152,7 +160,7 @@ void fill(Water& water, const SluiceBlock& block, const Lattice& lattice, float 
             const double off = (static_cast<double>(hash >> 40) * 0x1p-24 - 0.5) * 0.1 * double{radius};
             p.at(axis) = vec(block.low).at(axis) + spacing * (static_cast<double>(site.at(axis)) + 0.5) + off;
         }
-        const bool free = std::all_of(water.solids.begin(), water.solids.end(), [&](const SluiceSolid& solid) {
+        const bool free = std::all_of(solids.begin(), solids.end(), [&](const SluiceSolid& solid) {
             return distance(solid, p) >= 0.5 * double{radius};
         });
         if (free) {
@@ -164,6 +172,44 @@ void fill(Water& water, const SluiceBlock& block, const Lattice& lattice, float 
     }
 }
 
+SluiceSimulation settingsOf(const SluiceWater& asked, std::uint32_t particles) {
+    auto s = sized<SluiceSimulation>();
+    s.frames_in_flight = 1;
+    s.radius = asked.radius;
+    std::copy_n(asked.low, 3, s.low);
+    std::copy_n(asked.high, 3, s.high);
+    std::copy_n(asked.gravity, 3, s.gravity);
+    s.iterations = asked.iterations;
+    s.relaxation = kRelaxation;
+    s.tensile = kTensile;
+    s.viscosity = asked.viscosity;
+    s.vorticity = asked.vorticity;
+    s.cfl = kCfl;
+    s.longest_step = 1.0 / static_cast<double>(asked.steps_per_second);
+    s.tension = asked.tension;
+    s.adhesion = asked.adhesion;
+    s.max_particles = asked.max_particles == 0 && asked.emitter_count > 0 ? particles + kEmitted : asked.max_particles;
+    s.solid_count = asked.solid_count;
+    s.solids = asked.solids;
+    s.emitter_count = asked.emitter_count;
+    s.emitters = asked.emitters;
+    s.drain_count = asked.drain_count;
+    s.drains = asked.drains;
+    s.field_count = asked.field_count;
+    s.fields = asked.fields;
+    s.body_count = asked.body_count;
+    s.bodies = asked.bodies;
+    s.path_point_count = asked.path_point_count;
+    s.path_points = asked.path_points;
+    s.mesh_count = asked.mesh_count;
+    s.meshes = asked.meshes;
+    s.mesh_corner_count = asked.mesh_corner_count;
+    s.mesh_corners = asked.mesh_corners;
+    s.mesh_triangle_count = asked.mesh_triangle_count;
+    s.mesh_indices = asked.mesh_indices;
+    return s;
+}
+
 }  // namespace
 
 SluiceSimulation Water::view() const {
@@ -171,8 +217,6 @@ SluiceSimulation Water::view() const {
     out.particle_count = count();
     out.position = position.data();
     out.velocity = velocity.data();
-    out.solid_count = static_cast<std::uint32_t>(solids.size());
-    out.solids = solids.data();
     return out;
 }
 
@@ -195,7 +239,7 @@ Result<Water> makeWater(const SluiceWater& asked) {
         return status.error();
     }
     Water water;
-    water.solids.assign(asked.solids, asked.solids + asked.solid_count);
+    const std::span solids(asked.solids, asked.solid_count);
     for (const SluiceBlock& block : std::span(asked.blocks, asked.block_count)) {
         const Result<Lattice> lattice = latticeOf(block, asked.radius);
         if (!lattice) {
@@ -205,26 +249,16 @@ Result<Water> makeWater(const SluiceWater& asked) {
             return wrong("blocks", fmt::format("together they hold more than {} particles", kMostParticles),
                          "make water.radius larger or the blocks smaller");
         }
-        fill(water, block, lattice.value(), asked.radius);
+        fill(water, block, lattice.value(), asked.radius, solids);
     }
-    if (water.count() == 0) {
-        return wrong("blocks", "they hold no particle outside of the solids",
-                     "give a block of fluid at least two radii wide along each axis");
+    if (water.count() == 0 && asked.emitter_count == 0) {
+        return wrong("blocks", "they hold no particle outside of the solids, and there is no emitter",
+                     "give a block of fluid at least two radii wide along each axis, or an emitter");
     }
-    SluiceSimulation& s = water.settings;
-    s.struct_size = sizeof(s);
-    s.frames_in_flight = 1;
-    s.radius = asked.radius;
-    std::copy_n(asked.low, 3, s.low);
-    std::copy_n(asked.high, 3, s.high);
-    std::copy_n(asked.gravity, 3, s.gravity);
-    s.iterations = asked.iterations;
-    s.relaxation = kRelaxation;
-    s.tensile = kTensile;
-    s.viscosity = asked.viscosity;
-    s.vorticity = asked.vorticity;
-    s.cfl = kCfl;
-    s.longest_step = 1.0 / static_cast<double>(asked.steps_per_second);
+    water.settings = settingsOf(asked, water.count());
+    if (Status status = checkArrays(water.view()); !status) {
+        return status.error();
+    }
     return water;
 }
 

@@ -11,13 +11,12 @@
 
 namespace sluice::host {
 
-/// Owns what a SluiceSimulation points to.
+/// Owns the particles of a SluiceSimulation whose other arrays are the caller's.
 struct Water {
     SluiceSimulation settings{};
     std::vector<float> position, velocity;
-    std::vector<SluiceSolid> solids;
 
-    /// Must not outlive this.
+    /// Must outlive neither this nor the SluiceWater that it was made of.
     [[nodiscard]] SluiceSimulation view() const;
     [[nodiscard]] std::uint32_t count() const { return static_cast<std::uint32_t>(position.size() / 3); }
 };
