@@ -5,6 +5,7 @@
 // solids. What i does to j, j does to i: without walls the sum of all moves is zero to round-off.
 #define BODIES_BINDING 6
 #define MESH_BINDING 8
+#define SEEN_BINDING 9
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;
@@ -13,6 +14,7 @@ layout(set = 0, binding = 2) uniform utextureBuffer list;
 layout(std430, set = 0, binding = 3) readonly buffer ListCount { uint list_count[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Walls { vec4 walls_of[]; };
 layout(std430, set = 0, binding = 5) writeonly buffer Sorted { vec4 sorted[]; };
+layout(std430, set = 0, binding = 10) readonly buffer Before { vec4 before[]; };  // read only if SEEN
 
 void main() {
     const uint i = gl_GlobalInvocationID.x;
@@ -40,5 +42,5 @@ void main() {
     if (BODIES == 1u && self.w < 0.0) {
         addPressure(self.xyz, walls.w, self.w);
     }
-    sorted[i] = vec4(collided(self.xyz + delta), 0);
+    sorted[i] = vec4(collided(self.xyz + delta, SEEN == 1u ? before[i].xyz : self.xyz), 0);
 }

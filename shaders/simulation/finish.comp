@@ -5,6 +5,7 @@
 // starts from, with what the host judges it by.
 #define BODIES_BINDING 10
 #define MESH_BINDING 13
+#define SEEN_BINDING 14
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;
@@ -53,6 +54,10 @@ vec3 adhesionAt(vec3 x) {
     }
     if (MESH == 1u) {
         const vec4 d = distanceToMesh(x);
+        pull += d.xyz * -attraction(d.w);
+    }
+    if (SEEN == 1u) {
+        const vec4 d = distanceToSeen(x);
         pull += d.xyz * -attraction(d.w);
     }
     return pull;

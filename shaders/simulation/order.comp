@@ -3,7 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 // Sorts the particles by cell, and within a cell by identity: the same order whatever the order of arrival was, so that
 // every later sum has its terms in the same order too.
-#include "simulation.glsl"
+#define SEEN_BINDING 11
+#include "seen.glsl"
 
 layout(local_size_x = 64) in;
 layout(std430, set = 0, binding = 1) readonly buffer Arrival { uvec2 arrival[]; };
@@ -35,6 +36,6 @@ void main() {
         place += bucket[k] < mine ? 1u : 0u;
     }
     sorted[place] = vec4(predicted[i].xyz, 0);
-    before[place] = position[i];
+    before[place] = vec4(SEEN == 1u ? rescuedFromSeen(position[i].xyz) : position[i].xyz, position[i].w);
     identity_out[place] = mine;
 }

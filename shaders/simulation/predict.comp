@@ -7,6 +7,7 @@
 #define SOURCES_BINDING 7
 #define BODIES_BINDING 8
 #define MESH_BINDING 10
+#define SEEN_BINDING 11
 #include "solids.glsl"
 #include "sources.glsl"
 
@@ -29,7 +30,14 @@ void main() {
         return;
     }
     const float dt = p.gravity.w;
-    const vec3 start = position[i].xyz;
+    const vec3 at = position[i].xyz;
+    vec3 start = at;
+    if (SEEN == 1u) {  // order.comp finds the same
+        start = rescuedFromSeen(at);
+        if (start != at) {  // the host's watch over the moves sees it too
+            atomicMax(move, floatBitsToUint(length(start - at) + dt * length(velocity[i].xyz)));
+        }
+    }
     vec3 pull = p.gravity.xyz;
     if (FIELDS == 1u) {
         pull += fieldsAt(start);
@@ -38,7 +46,7 @@ void main() {
     if (isBad(moved)) {
         atomicOr(faults, FAULT_NOT_FINITE);
     }
-    const vec3 x = collided(moved);
+    const vec3 x = collided(moved, start);
     predicted[i] = vec4(x, 0);
     const ivec3 cell = cellOf(x);
     const uint index = rowOf(cell.y, cell.z) + uint(cell.x);

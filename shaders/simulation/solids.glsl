@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Solids as analytic signed distances. Exact for spheres, capsules, planes and the faces of boxes. Meshes as a grid of
-// distances, for passes that have defined MESH_BINDING.
+// distances, for passes that have defined MESH_BINDING; what a camera sees, for those with SEEN_BINDING.
 #ifndef SLUICE_SOLIDS_GLSL
 #define SLUICE_SOLIDS_GLSL
 #include "simulation.glsl"
 #ifdef BODIES_BINDING
 #include "bodies.glsl"
+#endif
+#ifdef SEEN_BINDING
+#include "seen.glsl"
 #endif
 
 vec3 rotated(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
@@ -73,8 +76,8 @@ vec4 distanceToMesh(vec3 x) {
 #endif
 
 // The nearest place where a particle's centre may be: a radius away from every solid, and within the domain whatever
-// the solids say.
-vec3 collided(vec3 x) {
+// the solids say. `start`: where it was at the start of the step.
+vec3 collided(vec3 x, vec3 start) {
     for (uint k = 0u; k < p.count.w; ++k) {
         const vec4 d = distanceTo(k, x);
         const vec3 push = d.xyz * max(p.low.w - d.w, 0.0);
@@ -89,6 +92,11 @@ vec3 collided(vec3 x) {
     if (MESH == 1u) {  // the grid ends with the domain
         const vec4 d = distanceToMesh(clamp(x, p.low.xyz + p.low.w, p.high.xyz - p.low.w));
         x += d.xyz * max(p.low.w - d.w, 0.0);
+    }
+#endif
+#ifdef SEEN_BINDING
+    if (SEEN == 1u) {
+        x = collidedWithSeen(x, start);
     }
 #endif
     return clamp(x, p.low.xyz + p.low.w, p.high.xyz - p.low.w);
@@ -131,6 +139,12 @@ vec4 wallsAt(vec3 x) {
 #ifdef MESH_BINDING
     if (MESH == 1u) {
         const vec4 d = distanceToMesh(x);
+        walls = withWall(walls, d.xyz, d.w);
+    }
+#endif
+#ifdef SEEN_BINDING
+    if (SEEN == 1u) {
+        const vec4 d = distanceToSeen(x);
         walls = withWall(walls, d.xyz, d.w);
     }
 #endif

@@ -75,6 +75,7 @@ SlotSize sizeOf(Slot slot, const SimulationBuffers& b) {
         case Slot::Status:
         case Slot::Count:
         case Slot::Meshes:
+        case Slot::Seen:
             break;
     }
     return {"simulation status", sizeof(StepStatus)};

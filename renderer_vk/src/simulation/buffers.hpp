@@ -42,7 +42,8 @@ enum class Slot : std::uint8_t {
     Pushes,
     Status,
     Count,
-    Meshes  ///< none of these: the solver makes it once
+    Meshes,  ///< none of these: the solver makes it once
+    Seen     ///< nor of these: whoever gives the depth field makes it
 };
 inline constexpr std::size_t kSlots = static_cast<std::size_t>(Slot::Count);
 

@@ -47,12 +47,13 @@ struct KernelDesc {
 
 std::vector<KernelDesc> descriptions(const Features& features) {
     using enum Slot;
-    const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}, {Meshes}};
+    const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}, {Meshes}, {Seen}};
     const std::uint32_t bodies = features.bodies ? 1 : 0;
     const std::uint32_t meshes = features.meshes ? 1 : 0;
+    const std::uint32_t seen = features.seen ? 1 : 0;
     const std::vector<Use> finish{texels(Sorted), texels(Moving), texels(Curl),  texels(List), {ListCount},
                                   {Before},       {PositionOut},  {VelocityOut}, {Status},     uniform(Bodies),
-                                  {Pushes},       texels(Walls),  {Meshes}};
+                                  {Pushes},       texels(Walls),  {Meshes},      {Seen}};
     return {
         {Kernel::Predict,
          simulation_predict_comp,
@@ -65,8 +66,9 @@ std::vector<KernelDesc> descriptions(const Features& features) {
           uniform(Sources),
           uniform(Bodies),
           {Pushes},
-          {Meshes}},
-         {features.fields ? 1U : 0U, bodies, 0, meshes}},
+          {Meshes},
+          {Seen}},
+         {features.fields ? 1U : 0U, bodies, 0, meshes, seen}},
         {Kernel::ScanSums, simulation_scan_sums_comp, {{Cells}, {Sums}}},
         {Kernel::ScanBlocks, simulation_scan_blocks_comp, {{Sums}}},
         {Kernel::ScanCells, simulation_scan_cells_comp, {{Cells}, {Sums}}},
@@ -83,26 +85,37 @@ std::vector<KernelDesc> descriptions(const Features& features) {
           {Sorted},
           {Before},
           {IdentityOut},
-          {Status}}},
+          {Status},
+          {Seen}},
+         {0, 0, 0, 0, seen}},
         {Kernel::Neighbours,
          simulation_neighbours_comp,
          {texels(Sorted), texels(Cells), {List}, {ListCount}, {Status}}},
-        {Kernel::Lambda, simulation_lambda_comp, lambda, {0, 0, 0, meshes}},
-        {Kernel::Measure, simulation_lambda_comp, lambda, {1, 0, 0, meshes}},
+        {Kernel::Lambda, simulation_lambda_comp, lambda, {0, 0, 0, meshes, seen}},
+        {Kernel::Measure, simulation_lambda_comp, lambda, {1, 0, 0, meshes, seen}},
         {Kernel::Delta,
          simulation_delta_comp,
-         {texels(Pushed), texels(List), {ListCount}, {Walls}, {Sorted}, uniform(Bodies), {Pushes}, {Meshes}},
-         {0, bodies, 0, meshes}},
+         {texels(Pushed),
+          texels(List),
+          {ListCount},
+          {Walls},
+          {Sorted},
+          uniform(Bodies),
+          {Pushes},
+          {Meshes},
+          {Seen},
+          {Before}},
+         {0, bodies, 0, meshes, seen}},
         {Kernel::Velocity, simulation_velocity_comp, {{Sorted}, {Before}, {Moving}}},
         {Kernel::Curl, simulation_curl_comp, {texels(Sorted), texels(Moving), texels(List), {ListCount}, {Slot::Curl}}},
         {Kernel::Surface,
          simulation_surface_comp,
-         {texels(Sorted), texels(List), {ListCount}, {Slot::Walls}, {Meshes}},
-         {0, 0, 0, meshes}},
+         {texels(Sorted), texels(List), {ListCount}, {Slot::Walls}, {Meshes}, {Seen}},
+         {0, 0, 0, meshes, seen}},
         {Kernel::Finish,
          simulation_finish_comp,
          finish,
-         {features.confined ? 1U : 0U, bodies, features.tension ? 1U : 0U, meshes}},
+         {features.confined ? 1U : 0U, bodies, features.tension ? 1U : 0U, meshes, seen}},
         {Kernel::Retire, simulation_retire_comp, {uniform(Sources), {Births}, {Blocked}, {PositionOut}, {Status}}},
         {Kernel::Born,
          simulation_born_comp,
@@ -135,9 +148,10 @@ constexpr std::array<const char*, kKernels> kNames{
     "measure", "delta",     "velocity",    "curl",       "surface", "finish",  "retire", "born"};
 
 void write(const Device& device, VkDescriptorSet set, std::uint32_t binding, Use use, const SimulationBuffers& buffers,
-           const Buffer& meshes) {
-    const bool own = use.slot == Slot::Meshes;
-    const VkDescriptorBufferInfo buffer{own ? meshes.buffer() : buffers[use.slot].buffer(), 0, VK_WHOLE_SIZE};
+           const Buffer& meshes, VkBuffer seen) {
+    const bool own = use.slot == Slot::Meshes || use.slot == Slot::Seen;
+    const VkBuffer other = use.slot == Slot::Seen ? seen : meshes.buffer();
+    const VkDescriptorBufferInfo buffer{own ? other : buffers[use.slot].buffer(), 0, VK_WHOLE_SIZE};
     auto info = vkStruct<VkWriteDescriptorSet>(VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET);
     info.dstSet = set;
     info.dstBinding = binding;
@@ -162,7 +176,7 @@ Result<Kernels> Kernels::create(const Device& device, const Features& features) 
     made.features_ = features;
     constexpr auto kSets = static_cast<std::uint32_t>(2 * kKernels);
     constexpr std::array<VkDescriptorPoolSize, 3> kSizes{{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 3 * kSets},
-                                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 10 * kSets},
+                                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 12 * kSets},
                                                           {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 5 * kSets}}};
     auto pool = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = kSets;
@@ -218,14 +232,14 @@ Kernels::~Kernels() {
     }
 }
 
-void Kernels::bind(const SimulationBuffers& buffers, const Buffer& meshes) const {
+void Kernels::bind(const SimulationBuffers& buffers, const Buffer& meshes, VkBuffer seen) const {
     for (const KernelDesc& desc : descriptions(features_)) {
         for (std::size_t odd = 0; odd < 2; ++odd) {
             const VkDescriptorSet set = sets_.at(static_cast<std::size_t>(desc.kernel)).at(odd);
-            write(*device_, set, 0, {Slot::Parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, buffers, meshes);
+            write(*device_, set, 0, {Slot::Parameters, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER}, buffers, meshes, seen);
             for (std::uint32_t i = 0; i < desc.uses.size(); ++i) {
                 const Use use = desc.uses[i];
-                write(*device_, set, i + 1, odd == 1 ? Use{exchanged(use.slot), use.type} : use, buffers, meshes);
+                write(*device_, set, i + 1, odd == 1 ? Use{exchanged(use.slot), use.type} : use, buffers, meshes, seen);
             }
         }
     }

@@ -46,6 +46,7 @@ struct Features {
     bool bodies = false;           ///< bodies that are pushed
     bool tension = false;          ///< surface tension or adhesion
     bool meshes = false;           ///< solids of triangles
+    bool seen = false;             ///< a depth field
     std::uint32_t depth_axis = 1;  ///< along which depth is measured, where it is
 };
 
@@ -62,8 +63,8 @@ class Kernels {
     Kernels& operator=(const Kernels&) = delete;
     ~Kernels();
 
-    /// Points every set at `buffers` and the grid of the meshes. No submitted work may use the sets.
-    void bind(const SimulationBuffers& buffers, const Buffer& meshes) const;
+    /// Points every set at `buffers`, the grid of the meshes and the depth field. No submitted work may use the sets.
+    void bind(const SimulationBuffers& buffers, const Buffer& meshes, VkBuffer seen) const;
     /// One dispatch of so many workgroups. `odd`: In and Out have changed places.
     void dispatch(VkCommandBuffer commands, Kernel kernel, bool odd, std::uint32_t groups) const;
 

@@ -146,6 +146,15 @@ Status checkSettings(const SimulationSettings& s) {
         return wrong("simulation: bodies", "none among meshes, which bodies do not meet",
                      fmt::format("{}", s.bodies.size()));
     }
+    if (s.seen != nullptr) {
+        if (!s.bodies.empty()) {
+            return wrong("simulation: bodies", "none beside a depth field, which bodies do not meet",
+                         fmt::format("{}", s.bodies.size()));
+        }
+        if (Status status = checkDepthField(*s.seen, s.radius); !status) {
+            return status;
+        }
+    }
     return checkSources(s.sources, s.radius, s.low, s.high, s.solids, s.meshes.get());
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulation/bodies.hpp"
+#include "simulation/depth_field.hpp"
 #include "simulation/distance_grid.hpp"
 #include "simulation/solid.hpp"
 #include "simulation/sources.hpp"
@@ -35,6 +36,7 @@ struct SimulationSettings {
     SourceSettings sources;
     std::vector<Body> bodies;
     std::shared_ptr<const DistanceGrid> meshes;  ///< may be none; not with bodies, which would not meet it
+    std::shared_ptr<const DepthField> seen;      ///< to begin with; none: there will never be one. Not with bodies
 
     [[nodiscard]] bool meshed() const { return meshes != nullptr && !meshes->nodes.empty(); }
     [[nodiscard]] float support() const { return 4.0F * radius; }

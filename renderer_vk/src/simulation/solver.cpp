@@ -58,9 +58,10 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
     state->sources = sourceBlock(settings.sources);
     state->walls = wallsOf(settings);
     state->restartBodies();
-    Result<Kernels> kernels = Kernels::create(
-        device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty(),
-                 settings.tension > 0.0F || settings.adhesion > 0.0F, settings.meshed(), deepestAxis(settings)});
+    Result<Kernels> kernels =
+        Kernels::create(device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty(),
+                                 settings.tension > 0.0F || settings.adhesion > 0.0F, settings.meshed(),
+                                 settings.seen != nullptr, deepestAxis(settings)});
     if (!kernels) {
         return kernels.error();
     }
@@ -70,7 +71,38 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
         return meshes.error();
     }
     state->meshes = std::move(meshes).value();
+    Result<Buffer> seen = uploadDepthField(device, settings.seen != nullptr ? *settings.seen : DepthField{});
+    if (!seen) {
+        return seen.error();
+    }
+    state->seen = std::move(seen).value();
+    state->seen_by = state->seen.buffer();
     return std::unique_ptr<Solver>(new Solver(std::move(state)));
+}
+
+Status Solver::setDepthField(const DepthField& field) {
+    State& s = *state_;
+    if (s.settings.seen == nullptr) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation: depth field", "the solver was made without one", ""};
+    }
+    if (Status status = checkDepthField(field, s.settings.radius); !status) {
+        return status;
+    }
+    Result<Buffer> made = uploadDepthField(s.device, field);
+    if (!made) {
+        return made.error();
+    }
+    useDepthField(made.value().buffer());
+    s.seen = std::move(made).value();
+    return {};
+}
+
+void Solver::useDepthField(VkBuffer field) {
+    State& s = *state_;
+    s.seen_by = field;
+    if (s.buffers.particles > 0) {
+        s.kernels.bind(s.buffers, s.meshes, field);
+    }
 }
 
 Status Solver::setParticles(std::span<const float> positions, std::span<const float> velocities) {

@@ -76,6 +76,12 @@ class Solver {
     /// there is an emitter. Refused, with the particle named, if one is not
     /// finite, outside the domain or in a solid; the particles before then stay.
     [[nodiscard]] Status setParticles(std::span<const float> positions, std::span<const float> velocities);
+    /// What is seen from now on, in place of SimulationSettings::seen, which there must have been. On an error it stays
+    /// as it was.
+    [[nodiscard]] Status setDepthField(const DepthField& field);
+    /// The same from a buffer on the device, a DepthHeader and its depths, that must last until there is another; what
+    /// it holds has been made visible to compute shaders.
+    void useDepthField(VkBuffer field);
     /// One step of that length, whatever the CFL number. On an error the state is that before the step.
     [[nodiscard]] Result<StepReport> step(double seconds);
     /// As many steps as the CFL rule asks for, none longer than `longest`. An error says why it could not be done; the

@@ -39,7 +39,7 @@ Status Solver::State::makeRoom(std::uint32_t particles, bool keep_state) {
             }
         }
         buffers = std::move(made).value();
-        kernels.bind(buffers, meshes);
+        kernels.bind(buffers, meshes, seen_by);
     }
     grid = plan;
     planned = std::max(particles, 1U);
@@ -73,7 +73,7 @@ Status Solver::State::prepareBirths(double seconds) {
         if (Status grown = growBirths(device, buffers, number + number / 2); !grown) {
             return grown;
         }
-        kernels.bind(buffers, meshes);
+        kernels.bind(buffers, meshes, seen_by);
     }
     std::array<float, 8> record{};
     for (std::size_t i = 0; i < births.size(); ++i) {

@@ -91,7 +91,7 @@ Status Solver::State::search() {
         if (Status grown = growLists(device, buffers, roomFor(status.most_neighbours)); !grown) {
             return grown;
         }
-        kernels.bind(buffers, meshes);
+        kernels.bind(buffers, meshes, seen_by);
     }
 }
 

@@ -40,7 +40,9 @@ struct Solver::State {
     Grid grid;
     Kernels kernels;
     SimulationBuffers buffers;
-    Buffer meshes;  ///< DistanceGrid as solids.glsl reads it
+    Buffer meshes;                      ///< DistanceGrid as solids.glsl reads it
+    Buffer seen;                        ///< DepthField as seen.glsl reads it; unused while another one is
+    VkBuffer seen_by = VK_NULL_HANDLE;  ///< that of the next step
     StepTimer timer;
     SinglePass anisotropy;          ///< built at its first use
     std::vector<Solid> walls;       ///< faces of the domain and solids, for bodies

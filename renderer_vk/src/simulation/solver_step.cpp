@@ -148,7 +148,7 @@ Result<StepReport> Solver::State::attempt(double seconds) {
         if (const Status grown = growLists(device, buffers, rows); !grown) {
             return grown.error();
         }
-        kernels.bind(buffers, meshes);
+        kernels.bind(buffers, meshes, seen_by);
     }
 }
 

@@ -7,6 +7,7 @@ list(APPEND SLUICE_VK_SOURCES
     src/simulation/kernels.cpp
     src/simulation/check_sources.cpp
     src/simulation/depth.cpp
+    src/simulation/depth_field.cpp
     src/simulation/distance_grid.cpp
     src/simulation/mesh.cpp
     src/simulation/parameters.cpp

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "simulation/transfer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -93,6 +95,30 @@ Result<Buffer> uploadMeshes(const Device& device, const DistanceGrid& grid) {
     Result<Buffer> made = Buffer::create(
         device, {content.size() * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                  BufferPlace::Device, "simulation meshes"});
+    if (made) {
+        if (Status status = upload(device, made.value(), content); !status) {
+            return status.error();
+        }
+    }
+    return made;
+}
+
+Result<Buffer> uploadDepthField(const Device& device, const DepthField& field) {
+    const DepthHeader header = depthHeader(field);
+    std::vector<float> content(sizeof header / sizeof(float));
+    std::memcpy(content.data(), &header, sizeof header);
+    content.insert(content.end(), field.depth.begin(), field.depth.end());
+    content.resize(std::max(content.size(), sizeof header / sizeof(float) + 1));
+    const VkDeviceSize bytes = content.size() * sizeof(float);
+    if (bytes > device.properties.limits.maxStorageBufferRange) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "simulation: depth field",
+                     fmt::format("{}x{} texels need a buffer of {} bytes, this device binds at most {}", field.width,
+                                 field.height, bytes, device.properties.limits.maxStorageBufferRange),
+                     "use a smaller image"};
+    }
+    Result<Buffer> made =
+        Buffer::create(device, {bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                BufferPlace::Device, "simulation depth field"});
     if (made) {
         if (Status status = upload(device, made.value(), content); !status) {
             return status.error();

@@ -13,6 +13,8 @@ namespace sluice::vk {
 
 /// Low corner and 1 / spacing, sizes, nodes; one node where there are no meshes.
 [[nodiscard]] Result<Buffer> uploadMeshes(const Device& device, const DistanceGrid& grid);
+/// Header and depths; room for one depth at least.
+[[nodiscard]] Result<Buffer> uploadDepthField(const Device& device, const DepthField& field);
 /// Into the In buffers of the even state. Velocities: empty or as many.
 [[nodiscard]] Status uploadParticles(const Device& device, const SimulationBuffers& buffers,
                                      std::span<const float> positions, std::span<const float> velocities);

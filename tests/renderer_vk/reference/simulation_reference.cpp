@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "reference/seen_reference.hpp"
 #include "reference/simulation_terms.hpp"
 
 namespace sluice::vk::test {
@@ -36,7 +37,7 @@ double densityAt(const std::vector<Vec>& x, const std::vector<std::size_t>& list
 }
 
 void iterate(const SimulationSettings& s, Bodies& bodies, const Kernels& kernels, const Lists& lists,
-             std::vector<Vec>& x) {
+             std::vector<Vec>& x, const std::vector<Vec>& start) {
     const double h = kernels.h;
     std::vector<double> lambda(x.size());
     std::vector<Walls> walls(x.size());
@@ -64,7 +65,7 @@ void iterate(const SimulationSettings& s, Bodies& bodies, const Kernels& kernels
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             push(bodies[k], x[i], lambda[i] * walls[i].parts[walls[i].parts.size() - bodies.size() + k]);
         }
-        moved[i] = pushedOut(s, bodies, x[i] + delta);
+        moved[i] = pushedOut(s, bodies, x[i] + delta, start[i]);
     }
     x = moved;
 }
@@ -122,17 +123,19 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
     const Kernels kernels(double{s.radius});
     const std::size_t n = before.position.size();
     std::vector<Vec> x(n);
+    std::vector<Vec> start(n);
     for (std::size_t i = 0; i < n; ++i) {
-        const Vec pull = wide(s.gravity) + fieldsAt(s, before.position[i]);
-        x[i] = pushedOut(s, bodies, before.position[i] + dt * (before.velocity[i] + dt * pull));
+        start[i] = rescued(s, before.position[i]);
+        const Vec pull = wide(s.gravity) + fieldsAt(s, start[i]);
+        x[i] = pushedOut(s, bodies, start[i] + dt * (before.velocity[i] + dt * pull), start[i]);
     }
     const Lists lists = allPairs(x, kernels.h);
     for (std::uint32_t k = 0; k < s.iterations; ++k) {
-        iterate(s, bodies, kernels, lists, x);
+        iterate(s, bodies, kernels, lists, x, start);
     }
     std::vector<Vec> v(n);
     for (std::size_t i = 0; i < n; ++i) {
-        v[i] = 1.0 / dt * (x[i] - before.position[i]);
+        v[i] = 1.0 / dt * (x[i] - start[i]);
     }
     std::vector<Vec> curl(n);
     for (std::size_t i = 0; i < n; ++i) {

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <optional>
 #include <vector>
 
 #include "reference/simulation_reference.hpp"
@@ -121,6 +122,10 @@ inline Contact touching(const Solid& solid, const Vec& x) {
     return {1.0 / norm(x - centre) * (x - centre), norm(x - centre) - double{solid.radius}};
 }
 
+// seen_reference.hpp, which needs what stands above.
+[[nodiscard]] std::optional<Contact> touchingSeen(const DepthField& field, const Vec& x);
+[[nodiscard]] Vec keptInFront(const SimulationSettings& s, const Vec& x, const Vec& start);
+
 using Bodies = std::vector<ReferenceBody>;
 
 inline void push(ReferenceBody& body, const Vec& x, const Vec& by) {
@@ -128,7 +133,7 @@ inline void push(ReferenceBody& body, const Vec& x, const Vec& by) {
     body.moment = body.moment + cross(x - body.centre, by);
 }
 
-/// The six faces of the domain, then the solids, then the bodies.
+/// The six faces of the domain, then the solids, then the bodies, then what is seen.
 inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& bodies, const Vec& x) {
     std::vector<Contact> all;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -143,10 +148,14 @@ inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& 
     for (const ReferenceBody& body : bodies) {
         all.push_back(touching(body.solid, x));
     }
+    if (const auto seen = s.seen ? touchingSeen(*s.seen, x) : std::nullopt; seen) {
+        // A wall fades within a radius, a quarter of the kernels, for who is in it.
+        all.push_back({seen->normal, std::max(seen->distance, -4.0 * seen->distance)});
+    }
     return all;
 }
 
-inline Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x) {
+inline Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x, const Vec& start) {
     const auto r = double{s.radius};
     for (const Solid& solid : s.solids) {
         const Contact contact = touching(solid, x);
@@ -158,6 +167,7 @@ inline Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x) {
         push(body, x, by);
         x = x + by;
     }
+    x = keptInFront(s, x, start);
     for (std::size_t axis = 0; axis < 3; ++axis) {
         x[axis] = std::clamp(x[axis], double{s.low[axis]} + r, double{s.high[axis]} - r);
     }

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// What a camera sees as a solid: an image of depths, each texel of which stands for a piece of a slab. Passes define
+// SEEN_BINDING first. World space and eye space (right-handed, looks down -z), metres. docs/simulation.md has the rule and
+// its reasons; DepthField of renderer_vk/src/simulation/depth_field.hpp is the same in doubles.
+#ifndef SLUICE_SEEN_GLSL
+#define SLUICE_SEEN_GLSL
+#include "simulation.glsl"
+
+layout(constant_id = 4) const uint SEEN = 0u;
+layout(std430, set = 0, binding = SEEN_BINDING) readonly buffer Seen {
+    vec4 seen_row[3];  // world to eye, rigid
+    vec4 seen_lens;    // ndc = xy * slope - zw, slope = eye.xy / depth
+    vec4 seen_limits;  // x = near plane, y = thickness of the slab, zw = size of the view in texels
+    uvec4 seen_size;   // xy = texels, the last of which may reach out of the view; none: nothing is seen
+    float seen_depth[];  // along -z, bottom row first
+};
+
+// The plane of a texel.
+struct SeenPlane {
+    vec3 normal;     // unit, world, towards the eye
+    float distance;  // of x to the plane, negative behind it
+    float stretch;   // what distances are multiplied with where the plane is seen at a grazing angle; 0: nothing is seen
+};
+
+// 0 where nothing is seen: nothing that a camera draws is nearer than its near plane.
+float seenAt(ivec2 texel) {
+    const ivec2 size = ivec2(seen_size.xy);
+    if (texel.x < 0 || texel.y < 0 || texel.x >= size.x || texel.y >= size.y) {
+        return 0.0;
+    }
+    const float depth = seen_depth[texel.y * size.x + texel.x];
+    return isBad(depth) || depth > 1e29 || depth < 0.5 * seen_limits.x ? 0.0 : depth;
+}
+
+vec3 seenRay(ivec2 texel) {
+    const vec2 ndc = (vec2(texel) + 0.5) * (2.0 / seen_limits.zw) - 1.0;
+    return vec3((ndc + seen_lens.zw) / seen_lens.xy, -1.0);
+}
+
+// Along +axis by the neighbour whose depth is nearer, or zero where both sides break off: depth there changes by more than 32
+// times what it does on a plane seen at 45 degrees.
+vec3 seenTangent(ivec2 texel, ivec2 axis, float depth) {
+    const float ahead = seenAt(texel + axis);
+    const float behind = seenAt(texel - axis);
+    if (ahead <= 0.0 && behind <= 0.0) {
+        return vec3(0);
+    }
+    const bool forward = behind <= 0.0 || (ahead > 0.0 && abs(ahead - depth) < abs(behind - depth));
+    const ivec2 to = forward ? axis : -axis;
+    const float change = (forward ? ahead : behind) - depth;
+    const vec2 slope = vec2(to) * 2.0 / (seen_limits.zw * seen_lens.xy);
+    if (abs(change) > 32.0 * depth * length(slope)) {
+        return vec3(0);
+    }
+    const vec3 tangent = change * seenRay(texel + to) + vec3(depth * slope, 0);
+    return forward ? tangent : -tangent;
+}
+
+SeenPlane seenPlane(vec3 x) {
+    const SeenPlane nothing = SeenPlane(vec3(0, 1, 0), 1e9, 0.0);
+    const vec3 eye = vec3(dot(seen_row[0].xyz, x) + seen_row[0].w, dot(seen_row[1].xyz, x) + seen_row[1].w,
+                          dot(seen_row[2].xyz, x) + seen_row[2].w);
+    const float depth = -eye.z;
+    if (isBad(eye) || depth < seen_limits.x) {
+        return nothing;
+    }
+    const vec2 pixel = ((seen_lens.xy * (eye.xy / depth) - seen_lens.zw) * 0.5 + 0.5) * seen_limits.zw;
+    if (pixel.x < 0.0 || pixel.y < 0.0 || pixel.x >= seen_limits.z || pixel.y >= seen_limits.w) {
+        return nothing;
+    }
+    const ivec2 texel = ivec2(pixel);
+    const float surface = seenAt(texel);
+    if (surface <= 0.0) {
+        return nothing;
+    }
+    const vec3 place = surface * seenRay(texel);
+    const vec3 to_eye = -normalize(place);
+    const vec3 across = seenTangent(texel, ivec2(1, 0), surface);
+    const vec3 up = seenTangent(texel, ivec2(0, 1), surface);
+    const bool has_across = dot(across, across) > 0.0;
+    const bool has_up = dot(up, up) > 0.0;
+    vec3 normal = to_eye;
+    if (has_across && has_up) {
+        normal = normalize(cross(normalize(across), normalize(up)));
+        normal = dot(normal, to_eye) < 0.0 ? -normal : normal;
+    } else if (has_across || has_up) {
+        const vec3 tangent = normalize(has_across ? across : up);
+        normal = normalize(to_eye - dot(to_eye, tangent) * tangent);
+    }
+    // The sine of the angle at which the plane is seen, but for the length of the ray: below 1/4 a quarter of the way
+    // along the ray counts as the distance, so that nothing far in front of a silhouette or behind it is touched.
+    const float facing = max(-dot(normal, eye) / depth, 1.0 / 64.0);
+    return SeenPlane(normal.x * seen_row[0].xyz + normal.y * seen_row[1].xyz + normal.z * seen_row[2].xyz,
+                     dot(normal, eye - place), max(1.0, 0.25 / facing));
+}
+
+// The slab has two faces. 1: that towards the eye is the nearer one; -1: the other.
+float seenSide(float distance) { return distance >= -0.5 * seen_limits.y ? 1.0 : -1.0; }
+// To the face on that side.
+float seenGap(float distance, float side) { return side > 0.0 ? distance : -seen_limits.y - distance; }
+
+// As a wall whose place fluid at rest takes: xyz = unit normal out of the nearer face, w = distance to it. Who has got into
+// the slab is about to be taken out of it: the wall fades for it within a radius, or fluid that a surface has come over would
+// burst.
+vec4 distanceToSeen(vec3 x) {
+    const SeenPlane plane = seenPlane(x);
+    if (plane.stretch == 0.0) {
+        return vec4(0, 1, 0, 1e9);
+    }
+    const float distance = plane.distance * plane.stretch;
+    const float side = seenSide(distance);
+    const float gap = seenGap(distance, side);
+    return vec4(side * plane.normal, gap < 0.0 ? -4.0 * gap : gap);
+}
+
+// Where a step starts: whom the surface has come over is taken out of it by up to a quarter of a radius, which is no
+// velocity, but drives the fluid in front of it.
+vec3 rescuedFromSeen(vec3 x) {
+    const SeenPlane plane = seenPlane(x);
+    if (plane.stretch == 0.0) {
+        return x;
+    }
+    const float distance = plane.distance * plane.stretch;
+    const float side = seenSide(distance);
+    const float way = max(p.low.w - seenGap(distance, side), 0.0) / plane.stretch;
+    return x + plane.normal * (side * min(way, 0.25 * p.low.w));
+}
+
+// A radius away from the face that `start` was nearer to, or as near to it as `start` was: what is taken back is never
+// more than the way from there.
+vec3 collidedWithSeen(vec3 x, vec3 start) {
+    const SeenPlane plane = seenPlane(x);
+    if (plane.stretch == 0.0) {
+        return x;
+    }
+    const float before = (plane.distance + dot(plane.normal, start - x)) * plane.stretch;
+    const float side = seenSide(before);
+    const float level = min(p.low.w, seenGap(before, side));
+    const float way = max(level - seenGap(plane.distance * plane.stretch, side), 0.0) / plane.stretch;
+    return x + plane.normal * (side * way);
+}
+
+#endif

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: MIT
+// A depth field in double precision, from the rule of docs/simulation.md: surfaces and rays in the world, with no code
+// of the solver's.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "reference/simulation_terms.hpp"
+
+namespace sluice::vk::test::reference {
+
+/// Where the pinhole of an image is, and what its texels look at.
+class Seer {
+  public:
+    explicit Seer(const DepthField& field) : field_(field) {
+        const auto& v = field.camera.view;
+        for (std::size_t i = 0; i < 3; ++i) {
+            right_[i] = double{v[4 * i]};
+            up_[i] = double{v[4 * i + 1]};
+            back_[i] = double{v[4 * i + 2]};
+        }
+        eye_ = -1.0 * (double{v[12]} * right_ + double{v[13]} * up_ + double{v[14]} * back_);
+    }
+
+    /// The way from the eye that comes one metre nearer to what it looks at, through a place of the image in texels.
+    [[nodiscard]] Vec way(double x, double y) const {
+        const auto& p = field_.camera.projection;
+        const double s = -double{p[11]};
+        const double right = ((2.0 * x / double{field_.view_size[0]} - 1.0) * s + double{p[8]}) / double{p[0]};
+        const double up = ((2.0 * y / double{field_.view_size[1]} - 1.0) * s + double{p[9]}) / double{p[5]};
+        return right * right_ + up * up_ - back_;
+    }
+    [[nodiscard]] double depthOf(const Vec& x) const { return -1.0 * dot(x - eye_, back_); }
+    /// In texels; none outside of the view.
+    [[nodiscard]] std::optional<std::array<double, 2>> place(const Vec& x) const {
+        const double depth = depthOf(x);
+        if (depth < double{field_.camera.near_plane}) {
+            return std::nullopt;
+        }
+        const auto& p = field_.camera.projection;
+        const double s = -double{p[11]} * depth;
+        const double right = (double{p[0]} * dot(x - eye_, right_) - double{p[8]} * depth) / s;
+        const double up = (double{p[5]} * dot(x - eye_, up_) - double{p[9]} * depth) / s;
+        const std::array<double, 2> found{(right + 1.0) / 2.0 * double{field_.view_size[0]},
+                                          (up + 1.0) / 2.0 * double{field_.view_size[1]}};
+        const bool inside = found[0] >= 0.0 && found[1] >= 0.0 && found[0] < double{field_.view_size[0]} &&
+                            found[1] < double{field_.view_size[1]};
+        return inside ? std::optional(found) : std::nullopt;
+    }
+    [[nodiscard]] std::optional<Vec> surface(long x, long y) const {
+        if (x < 0 || y < 0 || x >= static_cast<long>(field_.width) || y >= static_cast<long>(field_.height)) {
+            return std::nullopt;
+        }
+        const auto depth =
+            double{field_.depth[static_cast<std::size_t>(y) * field_.width + static_cast<std::size_t>(x)]};
+        if (!std::isfinite(depth) || depth < double{field_.camera.near_plane} / 2.0 || depth > 1e29) {
+            return std::nullopt;
+        }
+        return eye_ + depth * way(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
+    }
+    [[nodiscard]] const Vec& eye() const { return eye_; }
+    [[nodiscard]] const DepthField& field() const { return field_; }
+
+  private:
+    const DepthField& field_;
+    Vec eye_{}, right_{}, up_{}, back_{};
+};
+
+/// The direction in which the surface goes on from a texel, along one axis of the image.
+inline std::optional<Vec> goesOn(const Seer& seer, long x, long y, long dx, long dy) {
+    const Vec here = *seer.surface(x, y);
+    std::optional<Vec> best;
+    double least = 1e300;
+    for (const long sign : {-1L, 1L}) {
+        const auto there = seer.surface(x + sign * dx, y + sign * dy);
+        if (!there) {
+            continue;
+        }
+        const double change = std::abs(seer.depthOf(*there) - seer.depthOf(here));
+        if (change < least) {
+            least = change;
+            best = static_cast<double>(sign) * (*there - here);
+        }
+    }
+    const auto fx = static_cast<double>(x);
+    const auto fy = static_cast<double>(y);
+    const double apart = norm(seer.way(fx + static_cast<double>(dx), fy + static_cast<double>(dy)) - seer.way(fx, fy));
+    return best && least <= 32.0 * seer.depthOf(here) * apart ? best : std::nullopt;
+}
+
+/// The plane of the texel that x lies in.
+struct SeenPlane {
+    Vec normal{};
+    double offset = 0.0;
+    double stretch = 1.0;
+    [[nodiscard]] double distance(const Vec& x) const { return stretch * (dot(normal, x) - offset); }
+};
+
+inline std::optional<SeenPlane> planeSeenAt(const DepthField& field, const Vec& x) {
+    const Seer seer(field);
+    const auto place = seer.place(x);
+    if (!place) {
+        return std::nullopt;
+    }
+    const long column = std::lround(std::floor((*place)[0]));
+    const long row = std::lround(std::floor((*place)[1]));
+    const auto here = seer.surface(column, row);
+    if (!here) {
+        return std::nullopt;
+    }
+    const Vec to_eye = 1.0 / norm(seer.eye() - *here) * (seer.eye() - *here);
+    const auto across = goesOn(seer, column, row, 1, 0);
+    const auto up = goesOn(seer, column, row, 0, 1);
+    Vec normal = to_eye;
+    if (across && up) {
+        normal = cross(*across, *up);
+    } else if (across || up) {
+        const Vec along = across ? *across : *up;
+        normal = to_eye - dot(to_eye, along) / dot(along, along) * along;
+    }
+    normal = (dot(normal, to_eye) < 0.0 ? -1.0 : 1.0) / norm(normal) * normal;
+    const double facing = -1.0 * dot(normal, x - seer.eye()) / seer.depthOf(x);
+    return SeenPlane{normal, dot(normal, *here), std::max(1.0, 1.0 / (4.0 * std::max(facing, 1.0 / 64.0)))};
+}
+
+/// Which face of the slab is meant (1: towards the eye), and how far it is.
+inline double faceOf(const DepthField& field, double distance) {
+    return distance >= -double{field.thickness} / 2.0 ? 1.0 : -1.0;
+}
+inline double toFace(const DepthField& field, double distance, double face) {
+    return face > 0.0 ? distance : -double{field.thickness} - distance;
+}
+
+inline std::optional<Contact> touchingSeen(const DepthField& field, const Vec& x) {
+    const auto plane = planeSeenAt(field, x);
+    if (!plane) {
+        return std::nullopt;
+    }
+    const double face = faceOf(field, plane->distance(x));
+    return Contact{face * plane->normal, toFace(field, plane->distance(x), face)};
+}
+
+inline Vec rescued(const SimulationSettings& s, const Vec& x) {
+    const auto plane = s.seen ? planeSeenAt(*s.seen, x) : std::nullopt;
+    if (!plane) {
+        return x;
+    }
+    const auto r = double{s.radius};
+    const double face = faceOf(*s.seen, plane->distance(x));
+    const double way = std::max(r - toFace(*s.seen, plane->distance(x), face), 0.0) / plane->stretch;
+    return x + face * std::min(way, r / 4.0) * plane->normal;
+}
+
+inline Vec keptInFront(const SimulationSettings& s, const Vec& x, const Vec& start) {
+    const auto plane = s.seen ? planeSeenAt(*s.seen, x) : std::nullopt;
+    if (!plane) {
+        return x;
+    }
+    const double face = faceOf(*s.seen, plane->distance(start));
+    const double level = std::min(double{s.radius}, toFace(*s.seen, plane->distance(start), face));
+    const double way = std::max(level - toFace(*s.seen, plane->distance(x), face), 0.0) / plane->stretch;
+    return x + face * way * plane->normal;
+}
+
+}  // namespace sluice::vk::test::reference
