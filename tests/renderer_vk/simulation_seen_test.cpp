@@ -55,7 +55,8 @@ DepthField picture(const DepthView& camera, std::uint32_t width, std::uint32_t h
                      std::vector<float>(std::size_t{width} * height, kInfinity)};
     const reference::Seer seer(field);
     for (std::size_t i = 0; i < field.depth.size(); ++i) {
-        const Vec way = seer.way(static_cast<double>(i % width) + 0.5, static_cast<double>(i / width) + 0.5);
+        const std::size_t row = i / width;
+        const Vec way = seer.way(static_cast<double>(i % width) + 0.5, static_cast<double>(row) + 0.5);
         double depth = 0.05;
         for (int step = 0; step < 4000 && depth < 6.0; ++step) {  // sphere tracing
             const Vector x = plus(seer.eye(), times(depth, way));
@@ -167,7 +168,7 @@ TEST_F(SimulationSeen, HardPlacesAreLeftAloneOrLeftBySmallSteps) {
     constexpr std::uint32_t kSide = 8;
     DepthView camera = looking({0.5, 0.5, 0.9}, {0.5, 0.5, 0}, kSide, kSide);
     camera.projection[8] = camera.projection[9] = 0.0F;
-    DepthField wall{kSide, kSide, {kSide, kSide}, camera, 0.16F, std::vector<float>(kSide * kSide, 0.6F)};
+    DepthField wall{kSide, kSide, {kSide, kSide}, camera, 0.16F, std::vector<float>(std::size_t{kSide} * kSide, 0.6F)};
     const Vector in_front{0.52, 0.53, 0.5};
     EXPECT_LT(apart(after(wall, in_front), in_front), 1e-6);
     // Within a radius in front, and in the front half of the slab: out, by a quarter of a radius a step.
@@ -234,7 +235,7 @@ TEST_F(SimulationSeen, NobodyIsPushedOverASilhouette) {
 
 TEST_F(SimulationSeen, ASurfaceThatComesOverTheFluidGivesItNoSpeedAndTheWatchSeesIt) {
     DepthView camera = looking({0.5, 0.98, 0.5}, {0.5, 0, 0.5}, 32, 32, {0, 0, -1});
-    DepthField field{32, 32, {32, 32}, camera, 0.24F, std::vector<float>(32 * 32, 0.88F)};  // a floor at 0.1
+    DepthField field{32, 32, {32, 32}, camera, 0.24F, std::vector<float>(1024, 0.88F)};  // a floor at 0.1
     SimulationSettings settings = with(field);
     settings.gravity = {0, 0, 0};
     const auto solver = make(settings, lattice({0.3F, 0.1F, 0.3F}, 8, 3, 8, 0.041F, 0.0F, 1));
