@@ -104,7 +104,7 @@ SluiceRendererApi fakeApi() {
         fake.simulated = static_cast<double>(body) + double{target->centre[1]};
         return SLUICE_OK;
     };
-    api.submit_frame = [SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
+    api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
                           SluiceError* /*error*/) -> SluiceResult {
         fake.own_value = frame->signal_value;
         return SLUICE_OK;
@@ -123,8 +123,7 @@ SluiceRendererApi fakeApi() {
         *value = fake.own_value;
         return SLUICE_OK;
     };
-    api.destroy = [](SluiceRenderer* renderer) {
-        fake.destroyed += renderer != nullptr ? 1 : 0; };
+    api.destroy = [](SluiceRenderer* renderer) { fake.destroyed += renderer != nullptr ? 1 : 0; };
     return api;
 }
 
