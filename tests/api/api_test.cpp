@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "caller.hpp"
+#include "fluid.hpp"
 #include "hostile_state.hpp"
 #include "sluice/host_gl/screen.hpp"
 #include "sluice/host_gl/state_snapshot.hpp"
@@ -20,29 +20,6 @@ int c99_loads_the_library(const char* path, char* why, std::size_t size);
 
 namespace sluice::test {
 namespace {
-
-struct Destroy {
-    void operator()(Sluice* fluid) const { sluice_destroy(fluid); }
-};
-using Fluid = std::unique_ptr<Sluice, Destroy>;
-
-Fluid make(const SluiceOptions& options) {
-    Sluice* fluid = nullptr;
-    EXPECT_EQ(sluice_create(&options, &fluid), SLUICE_OK) << sluice_last_error(nullptr);
-    return Fluid(fluid);
-}
-
-/// Frame 2, after the fluid's start: what changed left, under the wall, and right of it.
-struct Seen {
-    int wall, open;
-};
-Seen lookAt(Sluice* fluid, GLuint framebuffer) {
-    drawRoom();
-    const auto before = pixels(framebuffer);
-    EXPECT_EQ(frame(fluid, 1.0), SLUICE_OK) << sluice_last_error(fluid);
-    const auto after = pixels(framebuffer);
-    return {changed(before, after, 0, kWidth / 3), changed(before, after, kWidth / 3, kWidth)};
-}
 
 /// Of whichever thread started them.
 std::vector<pid_t> childrenOfThisProcess() {
@@ -106,19 +83,6 @@ TEST(Api, WithoutAContextSaysSo) {
     EXPECT_EQ(log.lines[0], sluice_last_error(nullptr));
 }
 
-/// The picture of the first frame, in which the fluid is where it was poured.
-std::vector<std::uint8_t> firstFrame(Sluice* fluid, GLuint framebuffer, bool encode = false) {
-    const Camera eye = camera();
-    EXPECT_EQ(sluice_begin_frame(fluid, eye.view.data(), eye.projection.data(), 1.0), SLUICE_OK);
-    drawRoom();
-    if (encode) {
-        glEnable(GL_FRAMEBUFFER_SRGB);
-    }
-    EXPECT_EQ(sluice_end_frame(fluid), SLUICE_OK) << sluice_last_error(fluid);
-    glDisable(GL_FRAMEBUFFER_SRGB);
-    return pixels(framebuffer);
-}
-
 std::vector<std::uint8_t> pictureIn(const Formats& formats, bool encode) {
     const EglCaller caller({4, 5, false});
     const Buffers screen(kWidth, kHeight, formats);
@@ -180,9 +144,7 @@ TEST(Api, TheWindowsSizeIsFollowed) {
         caller.resize(width, kHeight);
         glViewport(0, 0, 2 * width, 2 * kHeight);  // what the engine draws with is its own affair
         ASSERT_EQ(frame(fluid.get(), 1.0, width, kHeight), SLUICE_OK) << sluice_last_error(fluid.get());
-        SluiceStatistics statistics{};
-        statistics.struct_size = sizeof(statistics);
-        ASSERT_EQ(sluice_statistics(fluid.get(), &statistics), SLUICE_OK);
+        const SluiceStatistics statistics = statisticsOf(fluid.get());
         EXPECT_EQ(statistics.width, static_cast<std::uint32_t>(width));
         EXPECT_EQ(statistics.height, static_cast<std::uint32_t>(kHeight));
         EXPECT_EQ(statistics.renderers, 1U);
@@ -240,9 +202,7 @@ TEST(Api, AnotherContextInTheMiddleOfEverything) {
     for (const GLuint name : textures) {
         EXPECT_EQ(glIsTexture(name), GL_TRUE);
     }
-    SluiceStatistics statistics{};
-    statistics.struct_size = sizeof(statistics);
-    ASSERT_EQ(sluice_statistics(fluid.get(), &statistics), SLUICE_OK);
+    const SluiceStatistics statistics = statisticsOf(fluid.get());
     EXPECT_EQ(statistics.contexts, 2U);
     EXPECT_EQ(statistics.frames, 2U);
     EXPECT_EQ(statistics.frames_without, 1U);
@@ -320,9 +280,7 @@ TEST(Api, AnEmitterPoursAndABodyIsWhereItIsDriven) {
     ASSERT_EQ(sluice_bodies(fluid.get(), &bodies), SLUICE_OK) << sluice_last_error(fluid.get());
     ASSERT_EQ(bodies.count, 1U);
     EXPECT_NEAR(bodies.bodies[0].centre[0], 0.25F, 1e-3F);
-    SluiceStatistics statistics{};
-    statistics.struct_size = sizeof(statistics);
-    ASSERT_EQ(sluice_statistics(fluid.get(), &statistics), SLUICE_OK);
+    const SluiceStatistics statistics = statisticsOf(fluid.get());
     EXPECT_GT(statistics.particles, 4U);
     EXPECT_EQ(log.lines, std::vector<std::string>{});
 }
@@ -350,9 +308,7 @@ TEST(Api, InAProcessOfItsOwn) {
     }
     EXPECT_EQ(result, SLUICE_OK) << sluice_last_error(fluid.get());
     EXPECT_NE(pixels(screen.name()), without);
-    SluiceStatistics statistics{};
-    statistics.struct_size = sizeof(statistics);
-    ASSERT_EQ(sluice_statistics(fluid.get(), &statistics), SLUICE_OK);
+    const SluiceStatistics statistics = statisticsOf(fluid.get());
     EXPECT_EQ(statistics.renderers, 2U);
     EXPECT_LE(log.lines.size(), 3U) << log.lines.back();
     EXPECT_NE(log.lines[0].find("SIGKILL"), std::string::npos) << log.lines[0];

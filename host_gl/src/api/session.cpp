@@ -24,6 +24,8 @@ constexpr double kLongestStride = 0.1;
 /// A call that makes images and programs takes as long as it takes, on a machine that is busy too.
 constexpr std::uint64_t kSetUpDeadlineNs = 120'000'000'000;
 constexpr double kFrameDeadline = 5.0;
+/// 2^this frames lie between tries to start at most: a minute or so.
+constexpr std::uint32_t kLongestPause = 12;
 
 Error noContext(const char* call) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, call, "no EGL or GLX context is current on this thread",
@@ -185,15 +187,30 @@ Status Session::settle(const std::optional<Extent>& wanted) {
         return noContext("Sluice");
     }
     if (host_ == nullptr || context != context_ || !isWitness(witness_)) {
+        // A start takes long, and one that fails would again: 1, 2, 4 ... frames lie between the tries.
+        if (start_error_ && context == tried_in_ && to_go_ > 0) {
+            --to_go_;
+            return *start_error_;
+        }
         if (Status status = checkContext(); !status) {
             return status;
         }
-        if (contexts_ > 0) {
+        if (host_ != nullptr) {
             log_(SLUICE_LOG_INFO,
                  "another GL context is current: everything is made anew in it, and the fluid begins again");
         }
         const Extent extent = wanted ? *wanted : follows_drawable_ ? Extent{64, 64} : extent_;
-        return start(context, extent);
+        tries_ = context == tried_in_ ? tries_ : 0;
+        tried_in_ = context;
+        Status status = start(context, extent);
+        if (status) {
+            start_error_.reset();
+            tries_ = 0;
+        } else {
+            start_error_ = status.error();
+            to_go_ = 1U << std::min(tries_++, kLongestPause);
+        }
+        return status;
     }
     if (wanted && (host_->info().width != (*wanted)[0] || host_->info().height != (*wanted)[1])) {
         return host_->resize((*wanted)[0], (*wanted)[1]);

@@ -85,6 +85,9 @@ class Session {
     std::uint32_t witness_ = 0;  ///< a GL object by which the context is known again
     std::unique_ptr<FluidHost> host_;
     std::uint32_t contexts_ = 0;
+    CurrentContext tried_in_;              ///< the last start
+    std::optional<Error> start_error_;     ///< why there is none in the present context
+    std::uint32_t tries_ = 0, to_go_ = 0;  ///< that failed since the last success; frames until the next
 
     std::optional<Matrix> view_, projection_;
     std::optional<double> clock_;  ///< of the last frame
