@@ -12,6 +12,7 @@
 #include "hostile_state.hpp"
 #include "sluice/host_gl/screen.hpp"
 #include "sluice/host_gl/state_snapshot.hpp"
+#include "sluice/ledger/recording.hpp"
 
 extern "C" {
 int c99_uses_the_library(void);
@@ -41,7 +42,7 @@ TEST_P(InContext, FluidIsBehindTheWallAndNoStateIsLeft) {
     const Buffers screen(kWidth, kHeight, {});
     Log log;
     const host::StateSnapshot before = host::takeStateSnapshot();
-    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME));
+    Fluid fluid = make(options(log, SLUICE_PROCESS_SAME));
     ASSERT_NE(fluid, nullptr);
     ASSERT_EQ(pour(fluid.get()), SLUICE_OK) << sluice_last_error(fluid.get());
     EXPECT_EQ(host::differences(before, host::takeStateSnapshot()), std::vector<std::string>{});
@@ -51,6 +52,10 @@ TEST_P(InContext, FluidIsBehindTheWallAndNoStateIsLeft) {
     EXPECT_EQ(host::differences(drawing, host::takeStateSnapshot()), std::vector<std::string>{});
     EXPECT_EQ(seen.wall, 0);
     EXPECT_GT(seen.open, 300);
+    const host::StateSnapshot resizing = host::takeStateSnapshot();
+    EXPECT_EQ(sluice_resize(fluid.get(), kWidth / 2, kHeight / 2), SLUICE_OK) << sluice_last_error(fluid.get());
+    fluid.reset();
+    EXPECT_EQ(host::differences(resizing, host::takeStateSnapshot()), std::vector<std::string>{});
     EXPECT_EQ(log.lines, std::vector<std::string>{});
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
 }
@@ -283,6 +288,25 @@ TEST(Api, AnEmitterPoursAndABodyIsWhereItIsDriven) {
     const SluiceStatistics statistics = statisticsOf(fluid.get());
     EXPECT_GT(statistics.particles, 4U);
     EXPECT_EQ(log.lines, std::vector<std::string>{});
+}
+
+TEST(Api, ALedgersLogHasEveryFrameAndNothingToFind) {
+    const EglCaller caller({});
+    const Buffers screen(kWidth, kHeight, {});
+    const std::string path = ::testing::TempDir() + "api_test_ledger.log";
+    Log log;
+    SluiceOptions asked = options(log, SLUICE_PROCESS_SAME);
+    asked.ledger_log = path.c_str();
+    Fluid fluid = make(asked);
+    ASSERT_EQ(pour(fluid.get()), SLUICE_OK);
+    EXPECT_EQ(frame(fluid.get(), 1.0), SLUICE_OK);
+    EXPECT_EQ(frame(fluid.get(), 1.1), SLUICE_OK);
+    fluid.reset();
+    const Result<ledger::Recording> recording = ledger::loadRecording(path);
+    ASSERT_TRUE(recording) << recording.error().message();
+    EXPECT_GT(recording.value().events.size(), 10U);
+    EXPECT_EQ(log.lines, std::vector<std::string>{});
+    std::filesystem::remove(path);
 }
 
 TEST(Api, InAProcessOfItsOwn) {

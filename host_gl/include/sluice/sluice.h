@@ -96,6 +96,7 @@ typedef struct SluiceOptions {
     double frame_deadline;        /* seconds that a call into another process may take in a frame before it is ended */
     void (*log)(void* user, int32_t level, const char* message); /* NULL: warnings and errors as a line on stderr */
     void* log_user;
+    const char* ledger_log; /* NULL: $SLUICE_LEDGER_LOG, else none: a file for `sluice diagnose`, of the first context */
 } SluiceOptions;
 /* struct_size is the caller's sizeof; it is set, and nothing beyond it is written. */
 SLUICE_EXPORT void sluice_options_defaults(SluiceOptions* options, size_t struct_size);

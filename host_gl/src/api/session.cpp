@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <utility>
 
 #include "api/places.hpp"
@@ -140,6 +141,32 @@ void Session::drop() {
     }
     witness_ = 0;
     context_ = {};
+    if (ledger_ != nullptr) {
+        if (const Status status = ledger_->finish(ledger::End::Closed); !status) {
+            log_(SLUICE_LOG_WARNING, status.error().message());
+        }
+        ledger_.reset();
+    }
+}
+
+std::string Session::ledgerLog(const char* asked) {
+    if (asked != nullptr) {
+        return asked;
+    }
+    const char* variable = std::getenv("SLUICE_LEDGER_LOG");
+    return variable != nullptr ? variable : "";
+}
+
+Status Session::startLedger() {
+    if (ledger_log_.empty()) {
+        return {};
+    }
+    Result<std::unique_ptr<ledger::LogWriter>> log = ledger::LogWriter::create(std::exchange(ledger_log_, {}));
+    if (!log) {
+        return log.error();
+    }
+    ledger_ = std::make_unique<ledger::LiveLedger>(ledger::LedgerOptions{}, std::move(log).value());
+    return {};
 }
 
 bool Session::reachable() const {
@@ -150,7 +177,11 @@ Status Session::start(const CurrentContext& context, const Extent& extent) {
     drop();
     value_ = 0;
     pending_ = false;
+    if (Status status = startLedger(); !status) {
+        return status;
+    }
     FluidHostConfig config;
+    config.ledger = ledger_.get();
     config.width = extent[0];
     config.height = extent[1];
     config.timeline = timeline_;

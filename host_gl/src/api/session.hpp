@@ -14,6 +14,7 @@
 #include "api/target.hpp"
 #include "frame/kept_scene.hpp"
 #include "sluice/host_gl/fluid_host.hpp"
+#include "sluice/ledger/live.hpp"
 #include "sluice/sluice.h"
 
 namespace sluice::host {
@@ -53,7 +54,8 @@ class Session {
           log_(std::move(log)),
           extent_{options.width, options.height},
           follows_drawable_(options.width == 0 || options.height == 0),
-          timeline_(static_cast<SluiceTimelineKind>(options.timeline)) {}
+          timeline_(static_cast<SluiceTimelineKind>(options.timeline)),
+          ledger_log_(ledgerLog(options.ledger_log)) {}
 
     /// There is fluid to be drawn.
     [[nodiscard]] bool active() const { return enabled_ && has_water_; }
@@ -66,6 +68,8 @@ class Session {
     /// Lets go of the FluidHost, with or without GL.
     void drop();
     [[nodiscard]] Status draw();
+    [[nodiscard]] static std::string ledgerLog(const char* asked);
+    [[nodiscard]] Status startLedger();
 
     PluginLibrary library_;
     LogSink log_;
@@ -82,7 +86,9 @@ class Session {
 
     CurrentContext context_;
     Resolve resolve_;
-    std::uint32_t witness_ = 0;  ///< a GL object by which the context is known again
+    std::uint32_t witness_ = 0;                   ///< a GL object by which the context is known again
+    std::string ledger_log_;                      ///< still to be begun; empty: none, or it has been
+    std::unique_ptr<ledger::LiveLedger> ledger_;  ///< outlives the host
     std::unique_ptr<FluidHost> host_;
     std::uint32_t contexts_ = 0;
     CurrentContext tried_in_;              ///< the last start
