@@ -204,7 +204,7 @@ int main(int argc, char** argv) {
     }
     if (radius > 0.0F) {
         inputs.value().scene.simulation.radius = radius;
-        Result<cli::LiveFluid> coarser = cli::liveFluid(inputs.value().scene, 1, 1);
+        Result<cli::LiveFluid> coarser = cli::liveFluid(inputs.value().scene, {}, {1, 1, inputs.value().frames.last});
         if (!coarser) {
             stop(coarser.error());
         }

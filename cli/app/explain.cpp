@@ -30,7 +30,7 @@ Json lineJson(const std::string& line) {
 
 Result<std::uint32_t> particlesOfFirstFrame(const RenderInputs& inputs) {
     if (inputs.live) {
-        return inputs.live->count();
+        return inputs.live->settings.max_particles;
     }
     const scene::ParticleSource& source = inputs.scene.particles;
     const Result<std::filesystem::path> path = particlePath(source, inputs.frames.first);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <utility>
 
 #include "app/simulate_setup.hpp"
@@ -41,25 +40,85 @@ std::vector<SluiceSolid> solidsOf(const simulator::Setup& setup) {
     return solids;
 }
 
-/// What `sluice simulate` knows and the C ABI does not.
-Status checkCrosses(const simulator::Setup& setup, std::size_t meshes) {
-    const std::array<std::pair<const char*, std::size_t>, 8> all{
-        {{"emitters", setup.emitters.size()},
-         {"drains", setup.drains.size()},
-         {"fields", setup.fields.size()},
-         {"bodies", setup.bodies.size()},
-         {"meshes", meshes},
-         {"tension", setup.tension != 0.0F ? 1U : 0U},
-         {"adhesion", setup.adhesion != 0.0F ? 1U : 0U},
-         {"overshoot", setup.overshoot != scene::Simulation{}.overshoot ? 1U : 0U}}};
-    for (const auto& [name, count] : all) {
-        if (count > 0) {
-            return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("/simulation/{}", name),
-                         fmt::format("expected none, or its default, while frames are drawn, found {}", count),
-                         "simulate into files first (sluice simulate SCENE -o FILE) and give them with --particles"};
+void put(float (&to)[3], const simulator::Vec3& from) {
+    std::copy(from.begin(), from.end(), &to[0]);
+}
+
+void addSources(LiveFluid& live, const simulator::Setup& setup) {
+    for (const simulator::Emitter& e : setup.emitters) {
+        SluiceEmitter& to = live.emitters.emplace_back();
+        to.shape = e.disc ? SLUICE_OPENING_DISC : SLUICE_OPENING_RECTANGLE;
+        put(to.centre, e.centre);
+        put(to.direction, e.direction);
+        to.width = e.width;
+        to.height = e.height;
+        to.speed = e.speed;
+        to.rate = e.rate;
+        to.start = e.start;
+        to.stop = e.stop;
+    }
+    for (const simulator::Drain& drain : setup.drains) {
+        SluiceDrain& to = live.drains.emplace_back();
+        to.shape = drain.sphere ? SLUICE_REGION_SPHERE : SLUICE_REGION_BOX;
+        put(to.centre, drain.centre);
+        put(to.half, drain.half);
+    }
+    for (const simulator::ForceField& f : setup.fields) {
+        using Kind = simulator::ForceField::Kind;
+        SluiceForceField& to = live.fields.emplace_back();
+        to.kind = f.kind == Kind::Wind    ? SLUICE_FIELD_WIND
+                  : f.kind == Kind::Point ? SLUICE_FIELD_POINT
+                                          : SLUICE_FIELD_VORTEX;
+        put(to.centre, f.centre);
+        put(to.axis, f.axis);
+        to.strength = f.strength;
+        to.radius = f.radius;
+    }
+}
+
+void addBodies(LiveFluid& live, const simulator::Setup& setup) {
+    for (const simulator::Body& b : setup.bodies) {
+        using Shape = simulator::Body::Shape;
+        SluiceBody& to = live.bodies.emplace_back();
+        to.shape = b.shape == Shape::Sphere    ? SLUICE_SOLID_SPHERE
+                   : b.shape == Shape::Capsule ? SLUICE_SOLID_CAPSULE
+                                               : SLUICE_SOLID_BOX;
+        to.motion = b.path.empty() ? SLUICE_BODY_FREE : SLUICE_BODY_PATH;
+        put(to.centre, b.centre);
+        put(to.half, b.half);
+        to.turn_degrees = b.turn_degrees;
+        to.density = b.density;
+        put(to.velocity, b.velocity);
+        put(to.spin, b.spin);
+        to.path_first = static_cast<std::uint32_t>(live.path_points.size());
+        to.path_count = static_cast<std::uint32_t>(b.path.size());
+        for (const simulator::PathPoint& point : b.path) {
+            SluicePathPoint& at = live.path_points.emplace_back();
+            at.time = point.time;
+            put(at.centre, point.centre);
+            at.turn_degrees = point.turn_degrees;
         }
     }
-    return {};
+}
+
+void addMeshes(LiveFluid& live, const std::vector<simulator::Mesh>& meshes) {
+    for (const simulator::Mesh& mesh : meshes) {
+        live.meshes.push_back(
+            {static_cast<std::uint32_t>(mesh.corners.size()), static_cast<std::uint32_t>(mesh.triangles.size()), {}});
+        for (const auto& x : mesh.corners) {
+            for (const double coordinate : x) {
+                live.mesh_corners.push_back(static_cast<float>(coordinate));
+            }
+        }
+        for (const auto& triangle : mesh.triangles) {
+            live.mesh_indices.insert(live.mesh_indices.end(), triangle.begin(), triangle.end());
+        }
+    }
+}
+
+template <typename T>
+std::uint32_t countOf(const std::vector<T>& items, std::size_t each = 1) {
+    return static_cast<std::uint32_t>(items.size() / each);
 }
 
 }  // namespace
@@ -71,6 +130,22 @@ SluiceSimulation LiveFluid::view() const {
     out.position = start.position.data();
     out.velocity = start.velocity.data();
     out.particle_count = count();
+    out.emitters = emitters.data();
+    out.emitter_count = countOf(emitters);
+    out.drains = drains.data();
+    out.drain_count = countOf(drains);
+    out.fields = fields.data();
+    out.field_count = countOf(fields);
+    out.bodies = bodies.data();
+    out.body_count = countOf(bodies);
+    out.path_points = path_points.data();
+    out.path_point_count = countOf(path_points);
+    out.meshes = meshes.data();
+    out.mesh_count = countOf(meshes);
+    out.mesh_corners = mesh_corners.data();
+    out.mesh_corner_count = countOf(mesh_corners, 3);
+    out.mesh_indices = mesh_indices.data();
+    out.mesh_triangle_count = countOf(mesh_indices, 3);
     return out;
 }
 
@@ -78,22 +153,26 @@ bool simulatesLive(const scene::Scene& scene) {
     return scene.particles.path.empty() && !(scene.simulation.fluid.empty() && scene.simulation.emitters.empty());
 }
 
-Result<LiveFluid> liveFluid(const scene::Scene& scene, std::uint64_t seed, std::uint32_t frames_in_flight) {
-    const simulator::Setup setup = simulationSetup(scene);
-    if (Status status = checkCrosses(setup, scene.simulation.meshes.size()); !status) {
+Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulator::Mesh>& meshes,
+                            const LiveRequest& request) {
+    simulator::Setup setup = simulationSetup(scene);
+    if (Status status = simulator::addMeshes(setup, meshes); !status) {
         return status.error();
     }
-    Result<simulator::Particles> start = startOfFluid(scene.simulation, setup, seed);
+    Result<simulator::Particles> start = startOfFluid(scene.simulation, setup, request.seed);
     if (!start) {
         return start.error();
     }
     LiveFluid live;
     live.start = std::move(start).value();
     live.solids = solidsOf(setup);
+    addSources(live, setup);
+    addBodies(live, setup);
+    addMeshes(live, meshes);
     live.frame_s = 1.0 / double{scene.simulation.frames_per_second};
     SluiceSimulation& s = live.settings;
     s.struct_size = sizeof(s);
-    s.frames_in_flight = frames_in_flight;
+    s.frames_in_flight = request.frames_in_flight;
     s.radius = setup.radius;
     std::copy(setup.low.begin(), setup.low.end(), &s.low[0]);
     std::copy(setup.high.begin(), setup.high.end(), &s.high[0]);
@@ -104,6 +183,14 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, std::uint64_t seed, std::
     s.viscosity = setup.viscosity;
     s.vorticity = setup.vorticity;
     s.cfl = setup.cfl;
+    s.tension = setup.tension;
+    s.adhesion = setup.adhesion;
+    s.overshoot = setup.overshoot > 0.0F ? setup.overshoot : -1.0F;
+    // What emitters could give by the last frame, and no more than `sluice simulate` takes: slots for all of that would
+    // be gigabytes.
+    const double most =
+        simulator::mostParticles(setup, live.count(), static_cast<double>(request.last_frame) * live.frame_s);
+    s.max_particles = static_cast<std::uint32_t>(std::clamp(most, 1.0, static_cast<double>(kMostSimulated)));
     s.longest_step = std::min(1.0, live.frame_s / scene.simulation.steps_per_frame);
     return live;
 }

@@ -36,8 +36,10 @@ std::optional<std::string> LiveRun::end(host::FluidHost& host) {
 }
 
 std::string sayLive(const std::string& scene, const LiveFluid& fluid) {
-    return fmt::format("{}: names no particles, so its simulation runs live: {} particles, {} frame{} in flight", scene,
-                       fluid.count(), fluid.settings.frames_in_flight, fluid.settings.frames_in_flight == 1 ? "" : "s");
+    return fmt::format("{}: names no particles, so its simulation runs live: {} particles{}, {} frame{} in flight",
+                       scene, fluid.count(),
+                       fluid.emitters.empty() ? "" : fmt::format(", {} at most", fluid.settings.max_particles),
+                       fluid.settings.frames_in_flight, fluid.settings.frames_in_flight == 1 ? "" : "s");
 }
 
 }  // namespace sluice::cli

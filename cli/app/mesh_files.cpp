@@ -151,7 +151,7 @@ Result<simulator::Mesh> parseObj(const std::string& text, const std::string& nam
     return mesh;
 }
 
-Status loadMeshes(simulator::Setup& setup, const scene::Simulation& simulation) {
+Result<std::vector<simulator::Mesh>> readMeshes(const scene::Simulation& simulation) {
     std::vector<simulator::Mesh> meshes;
     for (const scene::SolidMesh& placed : simulation.meshes) {
         const Result<std::string> text = contents(placed.path);
@@ -169,10 +169,25 @@ Status loadMeshes(simulator::Setup& setup, const scene::Simulation& simulation) 
             x = {double{placed.position[0]} + scale * (std::cos(angle) * old[0] + std::sin(angle) * old[2]),
                  double{placed.position[1]} + scale * old[1],
                  double{placed.position[2]} + scale * (std::cos(angle) * old[2] - std::sin(angle) * old[0])};
+            for (double& coordinate : x) {
+                coordinate = double{static_cast<float>(coordinate)};
+            }
         }
         meshes.push_back(std::move(mesh).value());
     }
-    return meshes.empty() ? Status{} : simulator::addMeshes(setup, meshes);
+    return meshes;
+}
+
+std::vector<host::TriangleMesh> drawnMeshes(const std::vector<simulator::Mesh>& meshes) {
+    std::vector<host::TriangleMesh> drawn;
+    for (const simulator::Mesh& mesh : meshes) {
+        host::TriangleMesh& to = drawn.emplace_back();
+        to.triangles = mesh.triangles;
+        for (const Corner& x : mesh.corners) {
+            to.corners.push_back({static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2])});
+        }
+    }
+    return drawn;
 }
 
 }  // namespace sluice::cli

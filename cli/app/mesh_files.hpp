@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "simulator/simulator.hpp"
 #include "sluice/result.hpp"
@@ -15,7 +16,10 @@ namespace sluice::cli {
 /// triangles. An error names what is no corner or no face. `name` is used in messages.
 [[nodiscard]] Result<simulator::Mesh> parseObj(const std::string& text, const std::string& name);
 
-/// Reads the simulation's meshes, puts them where the scene says, and makes them solids of the setup.
-[[nodiscard]] Status loadMeshes(simulator::Setup& setup, const scene::Simulation& simulation);
+/// Reads the simulation's meshes and puts them where the scene says. Corners are floats, as the renderer gets them.
+[[nodiscard]] Result<std::vector<simulator::Mesh>> readMeshes(const scene::Simulation& simulation);
+
+/// For the engine, which draws them.
+[[nodiscard]] std::vector<host::TriangleMesh> drawnMeshes(const std::vector<simulator::Mesh>& meshes);
 
 }  // namespace sluice::cli

@@ -25,6 +25,9 @@ FileRoles inputRoles(const RenderOptions& options, const RenderInputs& inputs) {
     if (!inputs.scene.environment.empty()) {
         roles.add("the environment map", inputs.scene.environment);
     }
+    for (const scene::SolidMesh& mesh : inputs.scene.simulation.meshes) {
+        roles.add("the mesh file", mesh.path);
+    }
     if (!options.no_fluid) {
         for (const std::filesystem::path& place : pluginPlaces(options.plugin)) {
             roles.add("the renderer plugin", place);

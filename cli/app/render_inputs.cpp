@@ -9,18 +9,20 @@
 #include "app/body_files.hpp"
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
+#include "app/mesh_files.hpp"
 #include "report/progress.hpp"
 
 namespace sluice::cli {
 
 namespace {
 
-Status startLive(RenderInputs& inputs, const RenderOptions& options) {
+Status startLive(RenderInputs& inputs, const RenderOptions& options, const std::vector<simulator::Mesh>& meshes) {
     if (inputs.frames.first < 1) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "--frames",
                      "expected frames from 1, found 0: the scene simulates its fluid", "frame 1 is the start"};
     }
-    Result<LiveFluid> live = liveFluid(inputs.scene, options.seed, options.frames_in_flight);
+    Result<LiveFluid> live =
+        liveFluid(inputs.scene, meshes, {options.seed, options.frames_in_flight, inputs.frames.last});
     if (!live) {
         Error error = live.error();
         error.thing = options.scene + ": " + error.thing;
@@ -48,8 +50,13 @@ Result<RenderInputs> readScene(const RenderOptions& options) {
     }
     inputs.frames = options.frames.value_or(inputs.scene.frames);
     inputs.size = options.size.value_or(inputs.scene.size);
+    const Result<std::vector<simulator::Mesh>> meshes = readMeshes(inputs.scene.simulation);
+    if (!meshes) {
+        return meshes.error();
+    }
+    inputs.scene.engine.meshes = drawnMeshes(meshes.value());
     if (simulatesLive(inputs.scene)) {
-        if (Status status = startLive(inputs, options); !status) {
+        if (Status status = startLive(inputs, options, meshes.value()); !status) {
             return status.error();
         }
         return inputs;

@@ -33,8 +33,8 @@ struct RenderInputs {
     std::optional<LiveFluid> live;         ///< in the place of particle files
 };
 
-/// The scene with the command line's overrides. Reads the scene file only. A scene without particles whose simulation
-/// has no fluid either is an error.
+/// The scene with the command line's overrides. Reads the scene file and its meshes only. A scene without particles
+/// whose simulation has no fluid either is an error.
 [[nodiscard]] Result<RenderInputs> readScene(const RenderOptions& options);
 
 /// Reads the environment map and every particle file once, so that a bad file is found before the first output. Warns

@@ -7,6 +7,7 @@
 #include <chrono>
 
 #include "app/interrupt.hpp"
+#include "app/live_bodies.hpp"
 #include "app/log.hpp"
 #include "app/plugin_path.hpp"
 #include "sluice/abi_sizes.hpp"
@@ -95,6 +96,20 @@ Result<host::PluginLibrary> isolatePlugin(const RenderOptions& options) {
     return host::PluginLibrary::isolated(config);
 }
 
+/// The engine draws the bodies where they are at the value that the frame draws, so it waits for that.
+Status updateBodies(RenderSession& session, const LiveFluid& fluid, std::int64_t frame, const RenderOptions& options) {
+    const auto value = static_cast<std::uint64_t>(frame);
+    if (Status status = session.fluid->waitForSimulation(value, nanoseconds(options.deadline_s)); !status) {
+        return status;
+    }
+    const Result<SluiceBodies> bodies = session.fluid->simulationBodies(value);
+    if (!bodies) {
+        return bodies.error();
+    }
+    session.bodies = drawnBodies(fluid, bodies.value());
+    return {};
+}
+
 /// Reads the images of the set that the last frame used.
 void readFluid(FrameLayers& layers, const RenderSession& session, const RenderInputs& inputs) {
     const auto read = [&](SluiceImageRole role) -> std::optional<host::Pixels> {
@@ -149,7 +164,8 @@ Result<RenderSession> createSession(const RenderInputs& inputs) {
                          std::nullopt,
                          nullptr,
                          {},
-                         1};
+                         1,
+                         inputs.live ? bodiesAtStart(*inputs.live) : std::vector<host::MovingBody>{}};
 }
 
 Status startLedger(RenderSession& session, const RenderOptions& options) {
@@ -250,10 +266,15 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
         thought.name = "host animation";
         session.trace->record(thought);
     }
+    if (session.fluid && !session.bodies.empty()) {
+        if (Status status = updateBodies(session, *inputs.live, frame, options); !status) {
+            result.failure = status.error();
+        }
+    }
     const std::uint64_t draw_began = monotonicNanoseconds();
     result.draw_ms = timed([&] {
         session.screen.bind();
-        session.engine.draw(camera, inputs.scene.sky, inputs.bodies);
+        session.engine.draw(camera, inputs.scene.sky, inputs.live ? session.bodies : inputs.bodies);
     });
     if (layers) {
         result.layers.host_colour = host::readColour(session.screen, session.trace.get());

@@ -37,6 +37,7 @@ struct RenderSession {
     std::unique_ptr<host::FluidHost> fluid;  ///< null: frames without fluid
     std::string timeline_reason;             ///< why the timeline in use was chosen
     std::int64_t animated = 1;               ///< the frame that the engine's own physics has come to
+    std::vector<host::MovingBody> bodies;    ///< of a live simulation, where they were last
 };
 
 /// Context, screen and engine. The context is current from here on.

@@ -32,7 +32,32 @@ struct Run {
     double compressions = 0.0;  ///< sum of the frames'
 };
 
-Status checkRequest(const SimulateOptions& options, scene::FrameRange frames) {
+/// No output may be one of the inputs, whichever frame's it is.
+Status checkRoles(const SimulateOptions& options, const scene::Simulation& settings, scene::FrameRange frames) {
+    FileRoles roles;
+    roles.add("the scene file", options.scene);
+    for (const scene::SolidMesh& mesh : settings.meshes) {
+        roles.add("the mesh file", mesh.path);
+    }
+    for (std::int64_t frame = frames.first; frame <= frames.last; ++frame) {
+        const Result<std::filesystem::path> path = outputPath(options.output, frame);
+        if (!path) {
+            return path.error();
+        }
+        if (Status status = roles.check("the output file (-o)", path.value()); !status) {
+            return status;
+        }
+        if (Status status = settings.bodies.empty()
+                                ? Status{}
+                                : roles.check("the bodies' file beside the output (-o)", bodiesPath(path.value()));
+            !status) {
+            return status;
+        }
+    }
+    return {};
+}
+
+Status checkRequest(const SimulateOptions& options, const scene::Simulation& settings, scene::FrameRange frames) {
     if (frames.first < 1) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "--frames", "expected frames from 1, found 0",
                      "frame 1 is the start"};
@@ -49,9 +74,7 @@ Status checkRequest(const SimulateOptions& options, scene::FrameRange frames) {
     if (Status status = particles::checkEnding(first.value()); !status) {
         return status;
     }
-    FileRoles roles;
-    roles.add("the scene file", options.scene);
-    return roles.check("the output file (-o)", first.value());
+    return checkRoles(options, settings, frames);
 }
 
 /// The fluid one frame further.
@@ -157,13 +180,18 @@ int simulate(const SimulateOptions& options) {
         return kExitBadInput;
     }
     const scene::FrameRange frames = options.frames.value_or(scene.value().frames);
-    if (const Status status = checkRequest(options, frames); !status) {
+    const scene::Simulation& settings = scene.value().simulation;
+    if (const Status status = checkRequest(options, settings, frames); !status) {
         logError(status.error());
         return kExitUsage;
     }
-    const scene::Simulation& settings = scene.value().simulation;
     simulator::Setup setup = simulationSetup(scene.value());
-    if (const Status status = loadMeshes(setup, settings); !status) {
+    const Result<std::vector<simulator::Mesh>> meshes = readMeshes(settings);
+    if (!meshes) {
+        logError(meshes.error());
+        return kExitBadInput;
+    }
+    if (const Status status = simulator::addMeshes(setup, meshes.value()); !status) {
         logError(status.error());
         return kExitBadInput;
     }

@@ -2,6 +2,7 @@
 #include "simulator/simulator.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "device/device.hpp"
 #include "simulation/solver.hpp"
@@ -82,6 +83,18 @@ Status addMeshes(Setup& setup, std::span<const Mesh> meshes) {
     }
     setup.meshes = std::make_shared<const vk::DistanceGrid>(std::move(grid).value());
     return {};
+}
+
+double mostParticles(const Setup& setup, std::size_t at_start, double seconds) {
+    auto most = static_cast<double>(at_start);
+    for (const vk::Emitter& emitter : settingsOf(setup).sources.emitters) {
+        const std::size_t sites = vk::outletSites(emitter, setup.radius).size();
+        const double open = std::max(seconds - double{emitter.start}, 0.0);
+        // A layer more for that of the very start, and one for what rounding may make of the last.
+        const double layers = std::floor(open / vk::layerPeriod(emitter, sites, setup.radius)) + 2.0;
+        most += layers * static_cast<double>(sites);
+    }
+    return most;
 }
 
 std::vector<double> clearances(const Setup& setup, const std::vector<float>& positions) {

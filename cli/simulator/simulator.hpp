@@ -117,6 +117,10 @@ struct Advance {
 /// closed surface.
 [[nodiscard]] Status addMeshes(Setup& setup, std::span<const Mesh> meshes);
 
+/// The most particles that a fluid of `at_start` particles has within so many seconds: with every birth of its
+/// emitters.
+[[nodiscard]] double mostParticles(const Setup& setup, std::size_t at_start, double seconds);
+
 /// Distance from each position (triples) to the nearest solid, body or face of the domain, metres; negative where no
 /// fluid may be.
 [[nodiscard]] std::vector<double> clearances(const Setup& setup, const std::vector<float>& positions);

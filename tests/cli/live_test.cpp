@@ -57,6 +57,65 @@ TEST_F(Live, PicturesAreThoseOfTheSimulatedFilesForEveryNumberOfFramesInFlightAn
     same("three_");
 }
 
+/// A tap, a drain, wind, a ball that floats and a crate on a path.
+constexpr const char* kTap = R"({
+    "size": [48, 27], "frames": [1, 4], "camera": {"position": [0, 1.5, 3], "target": [0, 0.5, 0]},
+    "simulation": {"radius": 0.05, "tension": 0.05, "adhesion": 0.02, "overshoot": 0.15,
+        "fluid": [{"low": [-0.6, 0, -0.4], "high": [0.2, 0.5, 0.4], "velocity": [0, 0, 0]}],
+        "emitters": [{"shape": "disc", "centre": [-0.3, 1.5, 0], "direction": [0, -1, 0], "width": 0.4, "height": 0.4,
+                      "speed": 4, "rate": 0, "start": 0, "stop": 0}],
+        "drains": [{"shape": "box", "centre": [0.8, 0.2, 0], "half": [0.5, 0.3, 0.5]}],
+        "fields": [{"kind": "wind", "centre": [0, 0, 0], "axis": [1, 0, 0], "strength": 20, "radius": 0}],
+        "bodies": [{"shape": "sphere", "centre": [-0.2, 0.8, 0], "half": [0.2, 0.2, 0.2], "turn_degrees": 0, "density": 0.5,
+                    "velocity": [0, -3, 0], "spin": [0, 0, 5], "path": []},
+                   {"shape": "box", "centre": [0, 0, 0], "half": [0.1, 0.1, 0.1], "turn_degrees": 0, "density": 1,
+                    "velocity": [0, 0, 0], "spin": [0, 0, 0],
+                    "path": [{"time": 0, "centre": [0.4, 0.1, 0], "turn_degrees": 30},
+                             {"time": 0.1, "centre": [0.1, 0.1, 0], "turn_degrees": 60}]}]}})";
+
+TEST_F(Live, WhatComesGoesAndMovesIsThatOfTheSimulatedFiles) {
+    write("tap.json", kTap);
+    ASSERT_EQ(run("simulate tap.json -o f_##.pos").code, 0);
+    EXPECT_NE(read("f_01.pos").size(), read("f_04.pos").size()) << "somebody is born";
+    ASSERT_EQ(run("render tap.json --particles f_##.pos -o file_##.png").code, 0);
+    const nlohmann::json live = render("tap.json -o live_##.png --validation --ledger --frames-in-flight 2");
+    EXPECT_EQ(live["validation_messages"], 0);
+    EXPECT_TRUE(live["ledger"]["findings"].empty()) << live["ledger"].dump(1);
+    (void)render("tap.json -o alone_##.png --isolate");
+    EXPECT_THAT(run("render tap.json -o lost_##.png --fault device-lost@2").err, HasSubstr("it begins again"));
+    EXPECT_TRUE(read("lost_03.png") == read("file_01.png")) << "a new renderer gets all of it";
+    for (const char* number : {"01.png", "02.png", "03.png", "04.png"}) {
+        EXPECT_TRUE(read(std::string("live_") + number) == read(std::string("file_") + number)) << number;
+        EXPECT_TRUE(read(std::string("alone_") + number) == read(std::string("file_") + number)) << number;
+    }
+}
+
+TEST_F(Live, AMeshIsASolidAndIsDrawn) {
+    writeFluid("s.json");
+    nlohmann::json scene = nlohmann::json::parse(read("s.json"));
+    scene["frames"] = {1, 3};
+    scene["simulation"]["meshes"] = {
+        {{"path", "cube.obj"}, {"position", {0, 0.3, 0.5}}, {"turn_degrees", 30}, {"scale", 0.2}}};
+    write("mesh.json", scene.dump());
+    write("cube.obj",
+          "v -1 -1 -1\nv 1 -1 -1\nv -1 1 -1\nv 1 1 -1\nv -1 -1 1\nv 1 -1 1\nv -1 1 1\nv 1 1 1\n"
+          "f 1 5 7 3\nf 2 4 8 6\nf 1 2 6 5\nf 3 7 8 4\nf 1 3 4 2\nf 5 6 8 7\n");
+    ASSERT_EQ(run("simulate mesh.json -o f_##.pos --frames 3..3").code, 0);
+    ASSERT_EQ(run("render mesh.json --particles f_##.pos -o file_##.png --frames 3..3").code, 0);
+    (void)render("mesh.json -o live_##.png --frames 3..3");
+    EXPECT_TRUE(read("live_03.png") == read("file_03.png"));
+    (void)render("mesh.json -o host.png --frames 3..3 --no-fluid");
+    (void)render("s.json -o bare.png --frames 3..3 --no-fluid");
+    EXPECT_FALSE(read("host.png") == read("bare.png"));
+    scene["simulation"]["meshes"][0]["path"] = "m_03.ply";
+    write("guard.json", scene.dump());
+    write("m_03.ply", read("cube.obj"));
+    const Outcome over = run("simulate guard.json -o m_##.ply");
+    EXPECT_EQ(over.code, 1);
+    EXPECT_THAT(over.err, HasSubstr("m_03.ply: would be the mesh file and the output file (-o) at once"));
+    EXPECT_EQ(read("m_03.ply"), read("cube.obj"));
+}
+
 TEST_F(Live, TheLedgerFindsAFrameThatDoesNotWaitForItsFluid) {
     writeFluid("s.json");
     const nlohmann::json faulty = render("s.json -o f_##.png --fault skip-wait/simulation@3 --ledger");
@@ -88,12 +147,16 @@ TEST_F(Live, AWrongSceneOrOptionIsSaidBeforeAnythingIsWritten) {
     EXPECT_EQ(none.code, 2);
     EXPECT_THAT(none.err, HasSubstr("frame 1 is the start"));
     EXPECT_EQ(run("render s.json -o f_##.png --frames-in-flight 4").code, 1);
-    write("tap.json", R"({"simulation": {"fluid": [{"low": [-0.6, 0.5, -0.4], "high": [0.2, 1.1, 0.4],
-                                                    "velocity": [0, 0, 0]}],
-                                         "drains": [{"shape": "sphere", "centre": [0, 0.2, 0], "half": [0.1, 0.1, 0.1]}]}})");
-    const Outcome tap = run("render tap.json -o f.png");
-    EXPECT_EQ(tap.code, 2);
-    EXPECT_THAT(tap.err, HasSubstr("/simulation/drains"));
+    write("open.json", R"({"simulation": {"fluid": [{"low": [-0.6, 0.5, -0.4], "high": [0.2, 1.1, 0.4],
+                                                     "velocity": [0, 0, 0]}],
+                                          "meshes": [{"path": "m.png", "position": [0, 0, 0], "turn_degrees": 0,
+                                                      "scale": 1}]}})");
+    write("m.png", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    const Outcome open = run("render open.json -o f.png");
+    EXPECT_EQ(open.code, 2);
+    EXPECT_THAT(open.err, HasSubstr("m.png: expected a closed surface"));
+    EXPECT_THAT(run("render open.json --particles p.pos -o m.png").err, HasSubstr("would be the mesh file and"));
+    EXPECT_EQ(read("m.png").substr(0, 7), "v 0 0 0");
     EXPECT_THAT(run("explain s.json").out, HasSubstr("384 particles"));
 }
 

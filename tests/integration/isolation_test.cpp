@@ -206,6 +206,50 @@ TEST_F(IsolationTest, MoreParticlesThanTheDeviceTakesAreRefusedBeforeOneIsRead) 
     ASSERT_NO_FATAL_FAILURE(frameIsClean());
 }
 
+TEST_F(IsolationTest, ABodyIsDrivenAndReadBackInHereAndOverThere) {
+    for (const bool isolated : {false, true}) {
+        if (isolated) {
+            host_.reset();
+            ASSERT_NO_FATAL_FAILURE(isolate());
+        }
+        ASSERT_NO_FATAL_FAILURE(makeHost(config()));
+        SluiceBody body{};
+        body.shape = SLUICE_SOLID_SPHERE;
+        body.motion = SLUICE_BODY_DRIVEN;
+        body.centre[1] = 0.5F;
+        std::fill_n(&body.half[0], 3, 0.1F);
+        const std::vector<float> position{0.0F, 0.1F, 0.0F};
+        auto simulation = sized<SluiceSimulation>();
+        simulation.frames_in_flight = simulation.iterations = 1;
+        simulation.radius = 0.05F;
+        simulation.relaxation = 0.1F;
+        simulation.cfl = 0.4F;
+        simulation.longest_step = 0.01;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            simulation.low[axis] = -1.0F;
+            simulation.high[axis] = 1.0F;
+        }
+        simulation.position = position.data();
+        simulation.bodies = &body;
+        simulation.particle_count = simulation.body_count = 1;
+        ASSERT_TRUE(host_->setSimulation(&simulation));
+        EXPECT_EQ(host_->simulationBodies(1).error().code, SLUICE_NOT_READY);
+        auto target = sized<SluiceBodyTarget>();
+        target.centre[0] = 0.25F;
+        target.turn[3] = 1.0F;
+        EXPECT_THAT(host_->setBody(1, target).error().message(), HasSubstr("body 1 of 1 is none that is driven"));
+        ASSERT_TRUE(host_->setBody(0, target));
+        ASSERT_TRUE(host_->simulate(1, 0.125));
+        ASSERT_TRUE(host_->waitForSimulation(1, 60'000'000'000));
+        const Result<SluiceBodies> bodies = host_->simulationBodies(0);
+        ASSERT_TRUE(bodies) << bodies.error().message();
+        EXPECT_EQ(bodies.value().count, 1U);
+        EXPECT_EQ(bodies.value().value, 1U);
+        EXPECT_EQ(bodies.value().bodies[0].centre[0], 0.25F);
+        EXPECT_NEAR(bodies.value().bodies[0].velocity[0], 2.0F, 1e-4F);
+    }
+}
+
 TEST_F(IsolationTest, OneLibraryServesSeveralThreads) {
     ASSERT_NO_FATAL_FAILURE(isolate());
     auto needs = sized<SluiceSceneNeeds>();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -47,6 +48,14 @@ Status checkScene(const EngineScene& scene) {
                        fmt::format("from {} m to and drop {} m must be positive, {} cells within 1..{}, {} iterations "
                                    "at most 1000",
                                    along, b.drop, b.cells, kMostBannerCells, b.iterations));
+        }
+    }
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        for (const auto& triangle : scene.meshes[i].triangles) {
+            if (std::max({triangle[0], triangle[1], triangle[2]}) >= scene.meshes[i].corners.size()) {
+                return bad(fmt::format("mesh {}", i),
+                           fmt::format("a triangle names a corner of {}", scene.meshes[i].corners.size()));
+            }
         }
     }
     return {};

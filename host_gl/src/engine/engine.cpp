@@ -19,6 +19,7 @@
 #include "engine/scenery.hpp"
 #include "engine/sky_dome.hpp"
 #include "engine/texture.hpp"
+#include "engine/triangle_mesh.hpp"
 #include "screen/gl_guards.hpp"
 
 namespace sluice::host {
@@ -89,6 +90,9 @@ LegacyEngine::Impl::Impl(EngineScene wanted) : scene(std::move(wanted)) {
         emitAshlar(scene);
         limestone.bind();
         emitLimestone(scene);
+        for (const TriangleMesh& mesh : scene.meshes) {
+            emitTriangles(mesh);
+        }
         shaft.bind();
         emitShafts(scene);
         arcade.bind();
@@ -100,7 +104,12 @@ LegacyEngine::Impl::Impl(EngineScene wanted) : scene(std::move(wanted)) {
         cloths.emplace_back(banner);
     }
     contacts = DisplayList([this] { emitContacts(scene); });
-    casters = DisplayList([this] { emitCasters(scene); });
+    casters = DisplayList([this] {
+        emitCasters(scene);
+        for (const TriangleMesh& mesh : scene.meshes) {
+            emitTriangles(mesh);
+        }
+    });
     cube = DisplayList(emitCube);
 }
 

@@ -51,6 +51,12 @@ struct Banner {
     std::uint32_t iterations;  ///< of the relaxation, a step
 };
 
+/// A surface of stone, counter-clockwise as seen from outside; edges sharper than 40 degrees are drawn as edges.
+struct TriangleMesh {
+    std::vector<Vec3> corners;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
 /// What stands in the scene. Lengths in metres, +y up.
 struct EngineScene {
     float floor_height = 0.0F;
@@ -60,6 +66,7 @@ struct EngineScene {
     std::vector<Crate> crates;
     std::vector<Basin> basins;
     std::vector<Banner> banners;
+    std::vector<TriangleMesh> meshes;
     /// Added to every lit surface, in sRGB-encoded values as the engine works in them.
     Vec3 ambient{0.35F, 0.37F, 0.42F};
     float enclosure_height = 3.0F;  ///< of the arcaded wall around the floor's edge; 0 leaves it out
