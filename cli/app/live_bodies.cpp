@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/interrupt.hpp"
+
 namespace sluice::cli {
 
 std::vector<host::MovingBody> drawnBodies(const LiveFluid& fluid, const SluiceBodies& states) {
@@ -35,6 +37,20 @@ std::vector<host::MovingBody> bodiesAtStart(const LiveFluid& fluid) {
         state.turn[3] = std::cos(half);
     }
     return drawnBodies(fluid, start);
+}
+
+Status awaitValue(host::FluidHost& fluid, std::uint64_t value, std::uint64_t patience_ns) {
+    for (std::uint64_t before = 0;;) {
+        Status status = fluid.waitForSimulation(value, patience_ns);
+        if (status || status.error().code != SLUICE_TIMEOUT || interrupted()) {
+            return status;
+        }
+        const Result<SluiceSimulationStats> stats = fluid.simulationStats();
+        if (!stats || stats.value().reached <= before) {
+            return status;
+        }
+        before = stats.value().reached;
+    }
 }
 
 }  // namespace sluice::cli

@@ -96,11 +96,17 @@ Result<host::PluginLibrary> isolatePlugin(const RenderOptions& options) {
     return host::PluginLibrary::isolated(config);
 }
 
-/// The engine draws the bodies where they are at the value that the frame draws, so it waits for that.
-Status updateBodies(RenderSession& session, const LiveFluid& fluid, std::int64_t frame, const RenderOptions& options) {
+/// The engine draws the bodies where they are at the value that the frame draws, so it waits for that. So it does for
+/// the first frame, before which there may be many values. In the frame that brings a new renderer they stand where
+/// they stood.
+Status awaitSimulation(RenderSession& session, const LiveFluid& fluid, std::int64_t frame,
+                       const RenderOptions& options) {
     const auto value = static_cast<std::uint64_t>(frame);
-    if (Status status = session.fluid->waitForSimulation(value, nanoseconds(options.deadline_s)); !status) {
+    if (Status status = awaitValue(*session.fluid, value, nanoseconds(options.deadline_s)); !status) {
         return status;
+    }
+    if (fluid.bodies.empty()) {
+        return {};
     }
     const Result<SluiceBodies> bodies = session.fluid->simulationBodies(value);
     if (!bodies) {
@@ -266,8 +272,8 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
         thought.name = "host animation";
         session.trace->record(thought);
     }
-    if (session.fluid && !session.bodies.empty()) {
-        if (Status status = updateBodies(session, *inputs.live, frame, options); !status) {
+    if (session.fluid && inputs.live && (!session.bodies.empty() || session.fluid->frame() == 0)) {
+        if (Status status = awaitSimulation(session, *inputs.live, frame, options); !status) {
             result.failure = status.error();
         }
     }

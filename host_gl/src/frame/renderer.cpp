@@ -194,7 +194,12 @@ Result<SluiceBodies> Renderer::simulationBodies(std::uint64_t value) const {
         return status.error();
     }
     auto bodies = sized<SluiceBodies>();
-    if (const SluiceResult result = api_->simulation_bodies(handle_, value, &bodies); result != SLUICE_OK) {
+    const SluiceResult result = api_->simulation_bodies(handle_, value, &bodies);
+    if (result == SLUICE_NOT_READY) {
+        return Error{SLUICE_NOT_READY, "simulation_bodies", fmt::format("value {} has not been simulated yet", value),
+                     "wait for it"};
+    }
+    if (result != SLUICE_OK) {
         return rendererError("simulation_bodies", result, sized<SluiceError>());
     }
     Result<SluiceBodies> answer = filled("simulation_bodies", bodies);
