@@ -40,7 +40,7 @@ static_assert(sizeof(SluicePassStats) == 80);
 static_assert(sizeof(SluiceFrameStats) == 2600);
 static_assert(sizeof(SluiceCreateInfo) == 444);
 static_assert(sizeof(SluiceRendererInfo) == 516);
-static_assert(sizeof(SluiceRendererApi) == 176);
+static_assert(sizeof(SluiceRendererApi) == 192);
 static_assert(offsetof(SluiceError, code) == 4);
 static_assert(offsetof(SluiceError, message) == 8);
 static_assert(offsetof(SluiceTraceEvent, kind) == 4);
