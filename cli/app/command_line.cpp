@@ -14,6 +14,7 @@
 
 #include "app/commands.hpp"
 #include "app/help.hpp"
+#include "app/inject.hpp"
 #include "app/ledger_commands.hpp"
 #include "app/log.hpp"
 #include "app/parse_values.hpp"
@@ -89,6 +90,7 @@ struct Line {
     LedgerCommands ledger;
     SimulateOptions simulate;
     stress::Options stress;
+    InjectOptions inject;
     int verbosity = 0;
     std::function<int()> run;
 };
@@ -262,6 +264,7 @@ int parseAndRun(int argc, const char* const* argv) {
     addLedgerCommands(line.app, line.ledger, line.run);
     addSimulateCommand(line.app, line.simulate, line.verbosity, line.run);
     addStressCommand(line.app, line.stress, line.run);
+    addInjectCommand(line.app, line.inject, line.run);
     for (CLI::App* command : line.app.get_subcommands(nullptr)) {
         command->group("Commands");
     }

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+#include "payload/gl_calls.hpp"
+
+#include <epoxy/egl.h>
+#include <epoxy/gl.h>
+
+#include <array>
+#include <string_view>
+
+namespace sluice::inject {
+
+namespace {
+
+constexpr int kGlxWidth = 0x801D, kGlxHeight = 0x801E;  // glx.h would bring in all of Xlib
+
+template <typename T>
+void look(const SluiceInjectShim& shim, const char* name, T& out) {
+    out = reinterpret_cast<T>(shim.real(name));
+}
+
+std::string text(const GlCalls& gl, GLenum name) {
+    const unsigned char* found = gl.getString(name);
+    return found == nullptr ? "" : reinterpret_cast<const char*>(found);
+}
+
+std::int32_t integer(const GlCalls& gl, GLenum name) {
+    std::int32_t value = 0;
+    gl.getIntegerv(name, &value);
+    return value;
+}
+
+}  // namespace
+
+GlCalls loadGlCalls(const SluiceInjectShim& shim) {
+    GlCalls gl;
+    look(shim, "glGetError", gl.getError);
+    look(shim, "glGetIntegerv", gl.getIntegerv);
+    look(shim, "glGetFloatv", gl.getFloatv);
+    look(shim, "glGetString", gl.getString);
+    look(shim, "glGetFramebufferAttachmentParameteriv", gl.getAttachment);
+    look(shim, "glIsProgram", gl.isProgram);
+    look(shim, "glGetProgramiv", gl.getProgramiv);
+    look(shim, "glGetActiveUniform", gl.getActiveUniform);
+    look(shim, "glGetUniformLocation", gl.getUniformLocation);
+    look(shim, "glGetUniformfv", gl.getUniformfv);
+    look(shim, "glReadPixels", gl.readPixels);
+    look(shim, "glXGetCurrentContext", gl.glxContext);
+    look(shim, "glXGetCurrentDisplay", gl.glxDisplay);
+    look(shim, "glXGetCurrentDrawable", gl.glxDrawable);
+    look(shim, "glXQueryDrawable", gl.glxQueryDrawable);
+    look(shim, "eglGetCurrentContext", gl.eglContext);
+    look(shim, "eglGetCurrentDisplay", gl.eglDisplay);
+    look(shim, "eglGetCurrentSurface", gl.eglSurface);
+    look(shim, "eglQuerySurface", gl.eglSurfaceValue);
+    return gl;
+}
+
+CurrentContext currentContext(const GlCalls& gl) {
+    CurrentContext current;
+    if (gl.glxContext != nullptr && gl.glxDisplay != nullptr && gl.glxDrawable != nullptr) {
+        current.context = gl.glxContext();
+        if (current.context != nullptr) {
+            current.display = gl.glxDisplay();
+            current.drawable = gl.glxDrawable();
+            return current;
+        }
+    }
+    if (gl.eglContext != nullptr && gl.eglDisplay != nullptr && gl.eglSurface != nullptr) {
+        current.context = gl.eglContext();
+        if (current.context != nullptr) {
+            current.api = SLUICE_INJECT_EGL;
+            current.display = gl.eglDisplay();
+            current.drawable = reinterpret_cast<std::uintptr_t>(gl.eglSurface(EGL_DRAW));
+        }
+    }
+    return current;
+}
+
+DrawableSize drawableSize(const GlCalls& gl, const CurrentContext& current) {
+    if (current.context == nullptr || current.drawable == 0) {
+        return {};
+    }
+    if (current.api == SLUICE_INJECT_GLX && gl.glxQueryDrawable != nullptr) {
+        unsigned width = 0;
+        unsigned height = 0;
+        gl.glxQueryDrawable(current.display, current.drawable, kGlxWidth, &width);
+        gl.glxQueryDrawable(current.display, current.drawable, kGlxHeight, &height);
+        return {width, height};
+    }
+    if (current.api == SLUICE_INJECT_EGL && gl.eglSurfaceValue != nullptr) {
+        int width = 0;
+        int height = 0;
+        void* const surface =
+            reinterpret_cast<void*>(current.drawable);  // NOLINT(performance-no-int-to-ptr): it was one
+        (void)gl.eglSurfaceValue(current.display, surface, EGL_WIDTH, &width);
+        (void)gl.eglSurfaceValue(current.display, surface, EGL_HEIGHT, &height);
+        return {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height)};
+    }
+    return {};
+}
+
+ContextFacts contextFacts(const GlCalls& gl) {
+    ContextFacts facts;
+    facts.renderer = text(gl, GL_RENDERER);
+    facts.version = text(gl, GL_VERSION);
+    facts.embedded = std::string_view(facts.version).starts_with("OpenGL ES");
+    // Versions and profile bits say less than the question itself.
+    std::array<float, 16> projection{};
+    gl.getFloatv(GL_PROJECTION_MATRIX, projection.data());
+    facts.compatibility = !facts.embedded && gl.getError() == GL_NO_ERROR;
+    facts.samples = integer(gl, GL_SAMPLES);
+    if (facts.compatibility || facts.embedded || gl.getAttachment == nullptr) {
+        facts.depth_bits = integer(gl, GL_DEPTH_BITS);
+        facts.stencil_bits = integer(gl, GL_STENCIL_BITS);
+    } else {
+        gl.getAttachment(GL_FRAMEBUFFER, GL_DEPTH, GL_FRAMEBUFFER_ATTACHMENT_DEPTH_SIZE, &facts.depth_bits);
+        gl.getAttachment(GL_FRAMEBUFFER, GL_STENCIL, GL_FRAMEBUFFER_ATTACHMENT_STENCIL_SIZE, &facts.stencil_bits);
+    }
+    return facts;
+}
+
+}  // namespace sluice::inject

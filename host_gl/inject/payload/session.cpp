@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: MIT
+#include "payload/session.hpp"
+
+#include <epoxy/gl.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <utility>
+
+#include "sluice/host_gl/state_snapshot.hpp"
+
+namespace sluice::inject {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::uint64_t kAuditedFrames = 8;   // with fluid; a full snapshot asks OpenGL thousands of questions
+constexpr std::uint64_t kMostFailures = 120;  // frames in a row that may fail before a context is left alone
+constexpr std::uint32_t kMostPrograms = 512;  // names that are looked at once, when the payload comes late
+constexpr std::size_t kMostLeaks = 64;
+
+thread_local std::uint32_t kept_error = 0;
+
+double seconds(Clock::duration time) {
+    return std::chrono::duration<double>(time).count();
+}
+
+/// Adds the time of a scope.
+class Timed {
+  public:
+    explicit Timed(double& sum) : sum_(sum) {}
+    ~Timed() { sum_ += seconds(Clock::now() - begin_); }
+    Timed(const Timed&) = delete;
+    Timed& operator=(const Timed&) = delete;
+
+  private:
+    double& sum_;
+    Clock::time_point begin_ = Clock::now();
+};
+
+UniformName meaningOf(std::string name) {
+    std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return std::tolower(c); });
+    const bool view = name.find("view") != std::string::npos || name.find("camera") != std::string::npos;
+    if (!view || name.find("proj") != std::string::npos || name.find("normal") != std::string::npos) {
+        return UniformName::Unknown;
+    }
+    return name.find("model") != std::string::npos || name.find("world") != std::string::npos ? UniformName::ModelView
+                                                                                              : UniformName::View;
+}
+
+}  // namespace
+
+std::uint32_t takeKeptError() {
+    return std::exchange(kept_error, GL_NO_ERROR);
+}
+
+void Spent::add(double s) {
+    ++frames;
+    seconds += s;
+    most = std::max(most, s);
+}
+
+Session::Session(Payload& payload, const CurrentContext& current)
+    : payload_(payload), identity_(current), tracker_(payload.settings.rules) {
+    keepErrors();
+    facts_ = contextFacts(payload.gl);
+    GLint mode = GL_MODELVIEW;
+    if (facts_.compatibility) {
+        payload.gl.getIntegerv(GL_MATRIX_MODE, &mode);
+    }
+    tracker_.matrixMode(mode == GL_PROJECTION, mode == GL_MODELVIEW);
+    GLint program = 0;
+    payload.gl.getIntegerv(GL_CURRENT_PROGRAM, &program);
+    tracker_.useProgram(static_cast<std::uint32_t>(program));
+    GLint framebuffer = 0;
+    payload.gl.getIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
+    tracker_.bindFramebuffer(static_cast<std::uint32_t>(framebuffer));
+    scanPrograms();
+    while (payload.gl.getError() != GL_NO_ERROR) {  // what an old context does not know of the above
+    }
+}
+
+/// Errors that the program has not asked for yet would be lost among ours.
+void Session::keepErrors() {
+    for (int i = 0; i < 8; ++i) {  // one flag per error kind; a lost context has no end of them
+        const std::uint32_t error = payload_.gl.getError();
+        if (error == GL_NO_ERROR) {
+            return;
+        }
+        ++errors_;
+        kept_error = kept_error == GL_NO_ERROR ? error : kept_error;
+    }
+}
+
+/// The payload comes with the first swap, when a camera that never moves has long been uploaded.
+void Session::scanPrograms() {
+    const GlCalls& gl = payload_.gl;
+    if (gl.isProgram == nullptr || gl.getProgramiv == nullptr || gl.getActiveUniform == nullptr ||
+        gl.getUniformLocation == nullptr || gl.getUniformfv == nullptr) {
+        return;
+    }
+    for (std::uint32_t program = 1; program <= kMostPrograms; ++program) {
+        GLint linked = 0;
+        GLint count = 0;
+        if (gl.isProgram(program) == GL_FALSE) {
+            continue;
+        }
+        gl.getProgramiv(program, GL_LINK_STATUS, &linked);
+        gl.getProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+        for (GLint i = 0; linked != 0 && i < count; ++i) {
+            std::array<char, 256> name{};
+            GLint size = 0;
+            GLenum type = 0;
+            gl.getActiveUniform(program, static_cast<std::uint32_t>(i), 255, nullptr, &size, &type, name.data());
+            const GLint location = type == GL_FLOAT_MAT4 ? gl.getUniformLocation(program, name.data()) : -1;
+            if (location >= 0) {
+                Matrix matrix{};
+                gl.getUniformfv(program, location, matrix.data());
+                tracker_.uniform(program, matrix, meaningOf(name.data()));
+            }
+        }
+    }
+}
+
+UniformName Session::nameOf(std::uint32_t program, std::int32_t location) {
+    const auto [known, fresh] = names_.try_emplace({program, location}, UniformName::Unknown);
+    const GlCalls& gl = payload_.gl;
+    if (!fresh || gl.getProgramiv == nullptr || gl.getActiveUniform == nullptr || gl.getUniformLocation == nullptr) {
+        return known->second;
+    }
+    GLint count = 0;
+    gl.getProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLint i = 0; i < count; ++i) {
+        std::array<char, 256> name{};
+        GLint size = 0;
+        GLenum type = 0;
+        gl.getActiveUniform(program, static_cast<std::uint32_t>(i), 255, nullptr, &size, &type, name.data());
+        if (type == GL_FLOAT_MAT4 && gl.getUniformLocation(program, name.data()) == location) {
+            known->second = meaningOf(name.data());
+        }
+    }
+    return known->second;
+}
+
+void Session::uniform(std::uint32_t program, std::int32_t location, const Matrix& matrix) {
+    const std::uint32_t of = program != 0 ? program : tracker_.program();
+    if (of != 0 && location >= 0) {
+        tracker_.uniform(of, matrix, nameOf(of, location));
+    }
+}
+
+void Session::matrixPushed() {
+    if (facts_.compatibility && tracker_.wantsPushedView()) {
+        Matrix model_view{};
+        payload_.gl.getFloatv(GL_MODELVIEW_MATRIX, model_view.data());
+        tracker_.pushedView(model_view);
+    }
+}
+
+void Session::beforeDraw(std::uint32_t vertices) {
+    if (ended_) {
+        return;
+    }
+    if (facts_.compatibility && tracker_.wantsMatrices()) {
+        Matrix projection{};
+        Matrix model_view{};
+        payload_.gl.getFloatv(GL_PROJECTION_MATRIX, projection.data());
+        payload_.gl.getFloatv(GL_MODELVIEW_MATRIX, model_view.data());
+        tracker_.fixedMatrices(projection, model_view);
+    }
+    if (tracker_.draw(vertices)) {
+        ++early_;
+        composeNow();
+    }
+}
+
+void Session::beforeClear(std::uint32_t mask) {
+    if (!ended_ && (mask & GL_DEPTH_BUFFER_BIT) != 0 && tracker_.clearsDepth()) {
+        ++early_;
+        composeNow();
+    }
+}
+
+void Session::swap(const CurrentContext& current, const char* route) {
+    if (ended_) {
+        return;
+    }
+    {
+        const Timed timed(in_frame_);
+        ++frames_;
+        ++routes_[route];
+        identity_.drawable = current.drawable;
+        thread_ = std::this_thread::get_id();
+        const DrawableSize size = drawableSize(payload_.gl, current);
+        resizes_ += size_.width != 0 && !(size == size_) ? 1U : 0U;
+        size_ = size;
+    }
+    if (!composed_) {
+        composeNow();
+    }
+    tracker_.endFrame();
+    composed_ = false;
+    if (water_ != nullptr) {
+        const Timed timed(in_frame_);
+        if (const Status status = water_->begin(time()); !status) {
+            giveUp(status.error().message());
+        }
+    }
+    spent_.add(std::exchange(in_frame_, 0.0));
+}
+
+double Session::time() const {
+    return payload_.settings.step > 0 ? static_cast<double>(frames_) * payload_.settings.step
+                                      : seconds(Clock::now().time_since_epoch());
+}
+
+void Session::composeNow() {
+    composed_ = true;
+    const std::optional<FoundCamera> camera = tracker_.camera();
+    if (payload_.settings.off || !failure_.empty() || facts_.embedded || !camera || size_.width == 0) {
+        return;
+    }
+    const Timed timed(in_frame_);
+    keepErrors();
+    composeAudited(*camera);
+}
+
+void Session::composeAudited(const FoundCamera& camera) {
+    const bool audit = payload_.settings.audit && audits_ < kAuditedFrames;
+    const host::StateSnapshot before = audit ? host::takeStateSnapshot() : host::StateSnapshot{};
+    const Status status = compose(camera);
+    if (audit) {
+        ++audits_;
+        for (std::string& leak : host::differences(before, host::takeStateSnapshot())) {
+            if (leaks_.size() < kMostLeaks) {
+                leaks_.push_back(std::move(leak));
+            }
+        }
+    }
+    failed_in_a_row_ = status ? 0 : failed_in_a_row_ + 1;
+    if (!status && (water_ == nullptr || failed_in_a_row_ > kMostFailures)) {
+        giveUp(status.error().message());
+    }
+}
+
+Status Session::compose(const FoundCamera& camera) {
+    if (water_ == nullptr) {
+        Result<std::unique_ptr<Water>> made =
+            createWater(payload_.folder, payload_.settings, camera, seenDistance(camera));
+        if (!made) {
+            return made.error();
+        }
+        water_ = std::move(made).value();
+        if (Status status = water_->begin(time()); !status) {
+            return status;
+        }
+    }
+    return water_->compose(camera, time());
+}
+
+/// The median distance of what the eye sees, from a grid of depths of the frame; 0 if it sees nothing.
+double Session::seenDistance(const FoundCamera& camera) const {
+    constexpr int kAcross = 9;
+    std::vector<double> distances;
+    for (int y = 0; y < kAcross; ++y) {
+        for (int x = 0; x < kAcross; ++x) {
+            float depth = 1.0F;
+            const auto at = [](int i, std::uint32_t size) {
+                return static_cast<GLint>((static_cast<double>(i) + 0.5) / kAcross * size);
+            };
+            payload_.gl.readPixels(at(x, size_.width), at(y, size_.height), 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
+            if (depth > 0.0F && depth < 1.0F) {
+                const double n = camera.lens.near_plane;
+                const double f = camera.lens.far_plane;
+                distances.push_back(n * f / (f - double{depth} * (f - n)));
+            }
+        }
+    }
+    if (distances.empty()) {
+        return 0.0;
+    }
+    std::nth_element(distances.begin(), distances.begin() + static_cast<std::ptrdiff_t>(distances.size() / 2),
+                     distances.end());
+    return distances[distances.size() / 2];
+}
+
+void Session::giveUp(const std::string& why) {
+    if (failure_.empty()) {
+        failure_ = why;
+        (void)std::fprintf(stderr, "sluice inject: no more fluid in this context: %s\n", why.c_str());
+    }
+    if (water_ != nullptr) {
+        last_water_ = water_->report();
+        water_.reset();
+    }
+}
+
+void Session::end() {
+    ended_ = true;
+    if (water_ != nullptr) {
+        last_water_ = water_->report();
+        water_.reset();
+    }
+}
+
+WaterReport Session::water() {
+    return water_ != nullptr ? water_->report() : last_water_;
+}
+
+}  // namespace sluice::inject

@@ -1,0 +1,167 @@
+/* SPDX-License-Identifier: MIT
+ * OpenGL calls that tell where the camera is and what is drawn with it. Each passes on what it was given, whatever the
+ * payload makes of it. */
+#include <stddef.h>
+#include <stdint.h>
+
+#include "shim.h"
+
+/* Does `what` with the payload, unless there is none or OpenGL must not be asked anything now. */
+#define TELL(what)                                                               \
+    do {                                                                         \
+        const SluiceInjectPayload* to = shim_in_primitive ? NULL : shim_enter(); \
+        if (to != NULL) {                                                        \
+            to->what;                                                            \
+            shim_leave();                                                        \
+        }                                                                        \
+    } while (0)
+
+/* A function without a result: told before the real call, or after it. */
+#define BEFORE(name, parameters, arguments, what) \
+    void name parameters {                        \
+        typedef void(*Real) parameters;           \
+        const Real real = SHIM_REAL(name, Real);  \
+        TELL(what);                               \
+        if (real != NULL) {                       \
+            real arguments;                       \
+        }                                         \
+    }
+#define AFTER(name, parameters, arguments, what) \
+    void name parameters {                       \
+        typedef void(*Real) parameters;          \
+        const Real real = SHIM_REAL(name, Real); \
+        if (real != NULL) {                      \
+            real arguments;                      \
+        }                                        \
+        TELL(what);                              \
+    }
+
+AFTER(glMatrixMode, (uint32_t mode), (mode), matrix_mode(mode))
+
+#define MATRIX(name, parameters, arguments) AFTER(name, parameters, arguments, matrix_changed())
+MATRIX(glLoadIdentity, (void), ())
+MATRIX(glLoadMatrixf, (const float* matrix), (matrix))
+MATRIX(glLoadMatrixd, (const double* matrix), (matrix))
+MATRIX(glLoadTransposeMatrixf, (const float* matrix), (matrix))
+MATRIX(glLoadTransposeMatrixd, (const double* matrix), (matrix))
+MATRIX(glMultMatrixf, (const float* matrix), (matrix))
+MATRIX(glMultMatrixd, (const double* matrix), (matrix))
+MATRIX(glMultTransposeMatrixf, (const float* matrix), (matrix))
+MATRIX(glMultTransposeMatrixd, (const double* matrix), (matrix))
+MATRIX(glFrustum, (double left, double right, double bottom, double top, double z_near, double z_far),
+       (left, right, bottom, top, z_near, z_far))
+MATRIX(glFrustumf, (float left, float right, float bottom, float top, float z_near, float z_far),
+       (left, right, bottom, top, z_near, z_far))
+MATRIX(glOrtho, (double left, double right, double bottom, double top, double z_near, double z_far),
+       (left, right, bottom, top, z_near, z_far))
+MATRIX(glOrthof, (float left, float right, float bottom, float top, float z_near, float z_far),
+       (left, right, bottom, top, z_near, z_far))
+MATRIX(glRotatef, (float angle, float x, float y, float z), (angle, x, y, z))
+MATRIX(glTranslatef, (float x, float y, float z), (x, y, z))
+MATRIX(glScalef, (float x, float y, float z), (x, y, z))
+MATRIX(glRotated, (double angle, double x, double y, double z), (angle, x, y, z))
+MATRIX(glTranslated, (double x, double y, double z), (x, y, z))
+MATRIX(glScaled, (double x, double y, double z), (x, y, z))
+MATRIX(glPopMatrix, (void), ())
+BEFORE(glPushMatrix, (void), (), matrix_pushed())
+
+AFTER(glUseProgram, (uint32_t program), (program), use_program(program))
+AFTER(glUseProgramObjectARB, (uint32_t program), (program), use_program(program))
+
+#define UNIFORM(name)                                                                     \
+    AFTER(name, (int32_t location, int32_t count, uint8_t transpose, const float* value), \
+          (location, count, transpose, value), uniform_matrix(0, location, count, transpose, value))
+UNIFORM(glUniformMatrix4fv)
+UNIFORM(glUniformMatrix4fvARB)
+AFTER(glProgramUniformMatrix4fv,
+      (uint32_t program, int32_t location, int32_t count, uint8_t transpose, const float* value),
+      (program, location, count, transpose, value), uniform_matrix(program, location, count, transpose, value))
+
+AFTER(glBindFramebuffer, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
+      bind_framebuffer(target, framebuffer))
+AFTER(glBindFramebufferEXT, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
+      bind_framebuffer(target, framebuffer))
+
+AFTER(glNewList, (uint32_t list, uint32_t mode), (list, mode), list_mode(mode))
+AFTER(glEndList, (void), (), list_mode(0))
+BEFORE(glCallList, (uint32_t list), (list), draw(0))
+BEFORE(glCallLists, (int32_t count, uint32_t type, const void* lists), (count, type, lists), draw(0))
+BEFORE(glClear, (uint32_t mask), (mask), clear(mask))
+
+void glBegin(uint32_t mode) {
+    typedef void (*Real)(uint32_t);
+    const Real real = SHIM_REAL(glBegin, Real);
+    TELL(draw(0));
+    if (!shim_is_inside()) {
+        shim_in_primitive = 1;
+    }
+    if (real != NULL) {
+        real(mode);
+    }
+}
+
+void glEnd(void) {
+    typedef void (*Real)(void);
+    const Real real = SHIM_REAL(glEnd, Real);
+    if (real != NULL) {
+        real();
+    }
+    if (!shim_is_inside()) {
+        shim_in_primitive = 0;
+    }
+}
+
+uint32_t glGetError(void) {
+    typedef uint32_t (*Real)(void);
+    const Real real = SHIM_REAL(glGetError, Real);
+    uint32_t kept = 0;
+    TELL(take_error(&kept));
+    return kept != 0 || real == NULL ? kept : real();
+}
+
+static uint32_t product(int32_t a, int32_t b) {
+    const int64_t vertices = a > 0 && b > 0 ? (int64_t)a * b : 0;
+    return vertices > UINT32_MAX ? UINT32_MAX : (uint32_t)vertices;
+}
+
+static uint32_t sum(const int32_t* counts, int32_t n) {
+    uint32_t vertices = 0;
+    for (int32_t i = 0; counts != NULL && i < n; ++i) {
+        vertices += product(counts[i], 1);
+    }
+    return vertices;
+}
+
+BEFORE(glDrawArrays, (uint32_t mode, int32_t first, int32_t count), (mode, first, count), draw(product(count, 1)))
+BEFORE(glDrawArraysEXT, (uint32_t mode, int32_t first, int32_t count), (mode, first, count), draw(product(count, 1)))
+BEFORE(glDrawElements, (uint32_t mode, int32_t count, uint32_t type, const void* indices), (mode, count, type, indices),
+       draw(product(count, 1)))
+BEFORE(glDrawRangeElements,
+       (uint32_t mode, uint32_t start, uint32_t end, int32_t count, uint32_t type, const void* indices),
+       (mode, start, end, count, type, indices), draw(product(count, 1)))
+BEFORE(glDrawRangeElementsEXT,
+       (uint32_t mode, uint32_t start, uint32_t end, int32_t count, uint32_t type, const void* indices),
+       (mode, start, end, count, type, indices), draw(product(count, 1)))
+BEFORE(glDrawElementsBaseVertex, (uint32_t mode, int32_t count, uint32_t type, const void* indices, int32_t base),
+       (mode, count, type, indices, base), draw(product(count, 1)))
+BEFORE(glDrawRangeElementsBaseVertex,
+       (uint32_t mode, uint32_t start, uint32_t end, int32_t count, uint32_t type, const void* indices, int32_t base),
+       (mode, start, end, count, type, indices, base), draw(product(count, 1)))
+BEFORE(glDrawArraysInstanced, (uint32_t mode, int32_t first, int32_t count, int32_t instances),
+       (mode, first, count, instances), draw(product(count, instances)))
+BEFORE(glDrawElementsInstanced, (uint32_t mode, int32_t count, uint32_t type, const void* indices, int32_t instances),
+       (mode, count, type, indices, instances), draw(product(count, instances)))
+BEFORE(glDrawElementsInstancedBaseVertex,
+       (uint32_t mode, int32_t count, uint32_t type, const void* indices, int32_t instances, int32_t base),
+       (mode, count, type, indices, instances, base), draw(product(count, instances)))
+BEFORE(glMultiDrawArrays, (uint32_t mode, const int32_t* first, const int32_t* counts, int32_t draws),
+       (mode, first, counts, draws), draw(sum(counts, draws)))
+BEFORE(glMultiDrawElements,
+       (uint32_t mode, const int32_t* counts, uint32_t type, const void* const* indices, int32_t draws),
+       (mode, counts, type, indices, draws), draw(sum(counts, draws)))
+BEFORE(glDrawArraysIndirect, (uint32_t mode, const void* where), (mode, where), draw(0))
+BEFORE(glDrawElementsIndirect, (uint32_t mode, uint32_t type, const void* where), (mode, type, where), draw(0))
+BEFORE(glMultiDrawArraysIndirect, (uint32_t mode, const void* where, int32_t draws, int32_t stride),
+       (mode, where, draws, stride), draw(0))
+BEFORE(glMultiDrawElementsIndirect, (uint32_t mode, uint32_t type, const void* where, int32_t draws, int32_t stride),
+       (mode, type, where, draws, stride), draw(0))

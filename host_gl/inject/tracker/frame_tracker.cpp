@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: MIT
+#include "tracker/frame_tracker.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace sluice::inject {
+
+namespace {
+
+// Nobody knows what is in a display list or between glBegin and glEnd; a list stands for a mesh.
+constexpr std::uint64_t kUnknownVertices = 24;
+constexpr std::size_t kMostLenses = 16;
+constexpr std::size_t kMostReasons = 16;
+
+}  // namespace
+
+void FrameTracker::matrixMode(bool projection, bool model_view) {
+    mode_projection_ = projection;
+    mode_model_view_ = model_view;
+}
+
+void FrameTracker::matrixChanged() {
+    if (!mode_projection_) {
+        return;
+    }
+    if (compiling_) {
+        lists_change_projection_ = true;
+    } else {
+        fixed_dirty_ = true;
+        pushed_.reset();
+    }
+}
+
+void FrameTracker::compileList(bool compiling) {
+    compiling_ = compiling;
+}
+
+bool FrameTracker::wantsPushedView() const {
+    return mode_model_view_ && fixed_dirty_ && !compiling_ && framebuffer_ == 0;
+}
+
+void FrameTracker::pushedView(const Matrix& model_view) {
+    pushed_ = model_view;
+}
+
+const FrameTracker::ProgramCamera* FrameTracker::programCamera() const {
+    if (program_ == 0 || rules_.route == CameraRoute::FixedFunction) {
+        return nullptr;
+    }
+    const auto found = programs_.find(program_);
+    return found != programs_.end() && found->second.reading ? &found->second : nullptr;
+}
+
+bool FrameTracker::wantsMatrices() const {
+    return fixed_dirty_ && !compiling_ && framebuffer_ == 0 && rules_.route != CameraRoute::Uniforms &&
+           programCamera() == nullptr;
+}
+
+void FrameTracker::fixedMatrices(const Matrix& projection, const Matrix& model_view) {
+    fixed_dirty_ = lists_change_projection_;
+    model_view_ = model_view;
+    fixed_ = readMatrix(projection);
+    ++fixed_version_;
+    reject(*fixed_);
+}
+
+void FrameTracker::uniform(std::uint32_t program, const Matrix& matrix, UniformName name) {
+    ProgramCamera& camera = programs_[program != 0 ? program : program_];
+    Reading reading = readMatrix(matrix);
+    if (reading.shape == Shape::Perspective) {
+        camera.reading = std::move(reading);
+        ++camera.version;
+    } else if (reading.shape == Shape::Flat && name >= camera.view_name && name != UniformName::Unknown &&
+               rigidPart(matrix).valid) {
+        camera.view = matrix;
+        camera.view_name = name == UniformName::View ? UniformName::View : camera.view_name;
+    } else {
+        reject(reading);
+    }
+}
+
+void FrameTracker::reject(const Reading& reading) {
+    if (reading.shape != Shape::Rejected) {
+        return;
+    }
+    const auto found = now_.rejected.find(reading.reason);
+    if (found != now_.rejected.end()) {
+        ++found->second;
+    } else if (now_.rejected.size() < kMostReasons) {
+        now_.rejected.emplace(reading.reason, 1);
+    }
+}
+
+FrameTracker::Group& FrameTracker::groupOf(const Reading& reading) {
+    for (Group& group : groups_) {
+        if (sameLens(group.reading.lens, reading.lens)) {
+            return group;
+        }
+    }
+    if (groups_.size() < kMostLenses) {
+        groups_.emplace_back();
+    }
+    Group& group = groups_.back();
+    group = Group{};
+    group.reading = reading;
+    return group;
+}
+
+void FrameTracker::viewOfFixed(Group& group) const {
+    FoundCamera& camera = group.camera;
+    const bool use_pushed =
+        pushed_ && (rules_.view == ViewRule::Pushed || (rules_.view == ViewRule::Automatic && !isIdentity(*pushed_)));
+    const Rigid rigid = rigidPart(use_pushed ? *pushed_ : model_view_);
+    camera.source = group.reading.pure ? "projection matrix" : "projection matrix that holds the view, too";
+    camera.confidence = group.reading.pure ? 0.95 : 0.85;
+    if (!rigid.valid) {
+        camera.view = group.reading.view;
+        camera.view_source = "none: the model-view matrix is not rigid";
+        camera.view_confidence = 0.1;
+        return;
+    }
+    camera.view = product(group.reading.view, rigid.matrix);
+    camera.scale = group.reading.scale * rigid.scale;
+    camera.view_source =
+        use_pushed ? "model-view matrix at the push before the first draw" : "model-view matrix at the first draw";
+    camera.view_confidence = isIdentity(camera.view) ? 0.3 : use_pushed ? 0.8 : 0.6;
+}
+
+void FrameTracker::viewOfProgram(Group& group, const ProgramCamera& program) {
+    FoundCamera& camera = group.camera;
+    camera.source = group.reading.pure ? "uniform: projection" : "uniform: projection with model or view";
+    camera.confidence = group.reading.pure ? 0.9 : 0.6;
+    camera.view = group.reading.view;
+    camera.scale = group.reading.scale;
+    camera.view_source = group.reading.pure ? "none" : "what stands right of the projection in the first draw";
+    camera.view_confidence = group.reading.pure ? 0.1 : 0.5;
+    if (const Rigid rigid = program.view ? rigidPart(*program.view) : Rigid{}; rigid.valid && group.reading.pure) {
+        camera.view = rigid.matrix;
+        camera.scale = rigid.scale;
+        const bool named = program.view_name == UniformName::View;
+        camera.view_source = named ? "uniform named view" : "uniform named model-view at the first draw";
+        camera.view_confidence = named ? 0.8 : 0.5;
+    }
+}
+
+bool FrameTracker::draw(std::uint32_t vertices) {
+    if (compiling_) {
+        return false;
+    }
+    if (framebuffer_ != 0) {
+        ++now_.foreign_draws;
+        return false;
+    }
+    const std::uint64_t count = vertices == 0 ? kUnknownVertices : vertices;
+    const ProgramCamera* program = programCamera();
+    const bool may_use_fixed = program == nullptr && rules_.route != CameraRoute::Uniforms && fixed_;
+    const Reading* reading = program != nullptr ? &*program->reading : may_use_fixed ? &*fixed_ : nullptr;
+    if (reading == nullptr || reading->shape != Shape::Perspective) {
+        ++now_.flat_draws;
+        return boundary();
+    }
+    Group& group = groupOf(*reading);
+    const std::uint64_t version = program != nullptr ? program->version : fixed_version_;
+    if (group.draws == 0) {
+        if (program != nullptr) {
+            viewOfProgram(group, *program);
+        } else {
+            viewOfFixed(group);
+        }
+    }
+    if (group.matrix_seen != version) {
+        group.matrix_seen = version;
+        ++group.matrices;
+    }
+    group.vertices += count;
+    ++group.draws;
+    group.last_block = block_;
+    scene_open_ = true;
+    return false;
+}
+
+bool FrameTracker::clearsDepth() {
+    return framebuffer_ == 0 && !compiling_ && boundary();
+}
+
+bool FrameTracker::boundary() {
+    if (!scene_open_) {
+        return false;
+    }
+    scene_open_ = false;
+    ++now_.switches;
+    const std::uint32_t block = block_++;
+    const bool now = rules_.overlay == OverlaySwitch::First ||
+                     (rules_.overlay == OverlaySwitch::Automatic && learned_ && *learned_ == block);
+    if (!now || done_) {
+        return false;
+    }
+    done_ = true;
+    now_.composited_early = true;
+    return true;
+}
+
+const FrameTracker::Group* FrameTracker::mainGroup() const {
+    const auto most = std::max_element(groups_.begin(), groups_.end(),
+                                       [](const Group& a, const Group& b) { return a.vertices < b.vertices; });
+    return most == groups_.end() ? nullptr : &*most;
+}
+
+FoundCamera FrameTracker::describe(const Group& group) const {
+    FoundCamera found = group.camera;
+    found.lens = group.reading.lens;
+    found.vertices = group.vertices;
+    if (!group.reading.pure && group.matrices > 1 && found.confidence < 0.85) {
+        // Matrices of several objects that agree on one lens are no accident.
+        found.confidence += 0.08 * std::min(3U, group.matrices - 1);
+    }
+    std::uint64_t all = 0;
+    for (const Group& other : groups_) {
+        all += other.vertices;
+    }
+    found.confidence *=
+        0.5 + 0.5 * static_cast<double>(group.vertices) / static_cast<double>(std::max<std::uint64_t>(all, 1));
+    if (rules_.near_plane || rules_.far_plane) {
+        found.lens.near_plane = rules_.near_plane.value_or(found.lens.near_plane);
+        found.lens.far_plane = rules_.far_plane.value_or(found.lens.far_plane);
+        found.source += ", planes by the profile";
+    }
+    if (rules_.view == ViewRule::Identity) {
+        found.view = kIdentity;
+        found.view_source = "none, by the profile";
+        found.view_confidence = 1.0;
+    }
+    return found;
+}
+
+std::optional<FoundCamera> FrameTracker::camera() const {
+    const Group* group = mainGroup();
+    return group != nullptr ? describe(*group) : kept_;
+}
+
+void FrameTracker::endFrame() {
+    if (const Group* group = mainGroup(); group != nullptr) {
+        kept_ = describe(*group);
+        // Ended by an overlay, or by the swap? The next frame is expected to do the same.
+        learned_ = group->last_block < block_ ? std::optional(group->last_block) : std::nullopt;
+    }
+    for (const Group& group : groups_) {
+        now_.lenses.push_back({group.reading.lens, group.camera.source, group.vertices, group.draws, group.matrices});
+    }
+    last_ = std::exchange(now_, FrameSummary{});
+    now_.rejected = last_.rejected;
+    groups_.clear();
+    block_ = 0;
+    scene_open_ = done_ = false;
+    fixed_dirty_ = true;  // the model-view of the next frame's first draw is another one
+    pushed_.reset();
+}
+
+}  // namespace sluice::inject

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: MIT
+// From the calls of a frame to its camera, and to the moment at which the scene is done and the overlay begins. Pure:
+// no OpenGL; whoever feeds it asks OpenGL for matrices when the tracker wants them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tracker/projection.hpp"
+
+namespace sluice::inject {
+
+enum class CameraRoute { Automatic, FixedFunction, Uniforms };
+/// When the fluid is drawn: at the last change from perspective to flat of the frame before, or to a cleared depth; at
+/// the first one; or at the swap.
+enum class OverlaySwitch { Automatic, First, Never };
+enum class ViewRule { Automatic, FirstDraw, Pushed, Identity };
+
+/// What a program's profile may lay down.
+struct TrackerRules {
+    CameraRoute route = CameraRoute::Automatic;
+    OverlaySwitch overlay = OverlaySwitch::Automatic;
+    ViewRule view = ViewRule::Automatic;
+    std::optional<double> near_plane, far_plane;
+};
+
+/// What the name of a uniform says about its matrix.
+enum class UniformName { Unknown, View, ModelView };
+
+/// A camera, and how much there is to say for it.
+struct FoundCamera {
+    Lens lens;
+    Matrix view = kIdentity;
+    double scale = 1;       ///< units of the lens per unit of the program's world
+    double confidence = 0;  ///< of the lens, 0 to 1
+    double view_confidence = 0;
+    std::string source, view_source;
+    std::uint64_t vertices = 0;
+};
+
+/// One projection of a frame, for the report.
+struct SeenLens {
+    Lens lens;
+    std::string source;
+    std::uint64_t vertices = 0;
+    std::uint32_t draws = 0, matrices = 0;
+};
+
+struct FrameSummary {
+    std::vector<SeenLens> lenses;
+    std::uint32_t flat_draws = 0, foreign_draws = 0;  ///< without perspective; into framebuffers of the program's own
+    std::uint32_t switches = 0;                       ///< from perspective to an overlay
+    bool composited_early = false;
+    std::map<std::string, std::uint64_t> rejected;  ///< why matrices were no camera, since the beginning
+};
+
+/// One context's frames, one after the other.
+class FrameTracker {
+  public:
+    explicit FrameTracker(TrackerRules rules = {}) : rules_(rules) {}
+
+    /// glMatrixMode: whether it is the projection, or the model-view, that the next calls change.
+    void matrixMode(bool projection, bool model_view);
+    void matrixChanged();
+    /// glPushMatrix: if true, give the model-view matrix to pushedView().
+    [[nodiscard]] bool wantsPushedView() const;
+    void pushedView(const Matrix& model_view);
+    /// Before a draw: if true, give both matrices of the fixed function to fixedMatrices() first.
+    [[nodiscard]] bool wantsMatrices() const;
+    void fixedMatrices(const Matrix& projection, const Matrix& model_view);
+
+    void useProgram(std::uint32_t program) { program_ = program; }
+    void uniform(std::uint32_t program, const Matrix& matrix, UniformName name);
+    [[nodiscard]] std::uint32_t program() const { return program_; }
+
+    void bindFramebuffer(std::uint32_t framebuffer) { framebuffer_ = framebuffer; }
+    void compileList(bool compiling);
+
+    /// True: the scene is complete, so that the fluid belongs before this draw.
+    [[nodiscard]] bool draw(std::uint32_t vertices);
+    /// The depth of the scene is about to be cleared: true likewise.
+    [[nodiscard]] bool clearsDepth();
+
+    /// The camera of what has been drawn in this frame so far, or of the last frame that had one.
+    [[nodiscard]] std::optional<FoundCamera> camera() const;
+    void endFrame();
+    [[nodiscard]] const FrameSummary& lastFrame() const { return last_; }
+
+  private:
+    struct Group {
+        Reading reading;
+        FoundCamera camera;
+        std::uint64_t vertices = 0;
+        std::uint32_t draws = 0, matrices = 0;
+        std::uint32_t last_block = 0;
+        std::uint64_t matrix_seen = 0;
+    };
+    struct ProgramCamera {
+        std::optional<Reading> reading;
+        std::optional<Matrix> view;
+        UniformName view_name = UniformName::Unknown;
+        std::uint64_t version = 0;
+    };
+
+    [[nodiscard]] const ProgramCamera* programCamera() const;
+    [[nodiscard]] bool boundary();
+    Group& groupOf(const Reading& reading);
+    void viewOfFixed(Group& group) const;
+    static void viewOfProgram(Group& group, const ProgramCamera& program);
+    [[nodiscard]] const Group* mainGroup() const;
+    [[nodiscard]] FoundCamera describe(const Group& group) const;
+    void reject(const Reading& reading);
+
+    TrackerRules rules_;
+    bool mode_projection_ = false, mode_model_view_ = true;
+    bool fixed_dirty_ = true, compiling_ = false, lists_change_projection_ = false;
+    std::optional<Reading> fixed_;
+    Matrix model_view_ = kIdentity;
+    std::optional<Matrix> pushed_;
+    std::uint64_t fixed_version_ = 0;
+    std::uint32_t program_ = 0, framebuffer_ = 0;
+    std::map<std::uint32_t, ProgramCamera> programs_;
+
+    std::vector<Group> groups_;
+    std::uint32_t block_ = 0;
+    bool scene_open_ = false, done_ = false;
+    std::optional<std::uint32_t> learned_;
+    std::optional<FoundCamera> kept_;
+    FrameSummary now_, last_;
+};
+
+}  // namespace sluice::inject

@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: MIT
+// Frames of programs as streams of calls, and what the tracker makes of them.
+#include "tracker/frame_tracker.hpp"
+
+#include <gtest/gtest.h>
+
+#include "matrices.hpp"
+
+namespace sluice::inject::test {
+namespace {
+
+const Matrix kLens = frustum(-0.1, 0.1, -0.075, 0.075, 0.1, 512);
+
+/// A program's fixed function: what it would answer when asked for its matrices.
+class Fixed {
+  public:
+    explicit Fixed(FrameTracker& tracker) : tracker_(tracker) {}
+    void project(const Matrix& matrix) {
+        tracker_.matrixMode(true, false);
+        projection_ = matrix;
+        tracker_.matrixChanged();
+        tracker_.matrixMode(false, true);
+    }
+    void model(const Matrix& matrix) {
+        model_view_ = matrix;
+        tracker_.matrixChanged();
+    }
+    void push() {
+        if (tracker_.wantsPushedView()) {
+            tracker_.pushedView(model_view_);
+        }
+    }
+    bool draw(std::uint32_t vertices) {
+        if (tracker_.wantsMatrices()) {
+            ++asked_;
+            tracker_.fixedMatrices(projection_, model_view_);
+        }
+        return tracker_.draw(vertices);
+    }
+    [[nodiscard]] int asked() const { return asked_; }
+
+  private:
+    FrameTracker& tracker_;
+    Matrix projection_ = kIdentity, model_view_ = kIdentity;
+    int asked_ = 0;
+};
+
+TEST(FrameTracker, FluidBelongsBeforeTheOverlayFromTheSecondFrameOn) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    for (int frame = 0; frame < 3; ++frame) {
+        fixed.project(kLens);
+        EXPECT_FALSE(fixed.draw(1000));
+        fixed.project(ortho());
+        EXPECT_EQ(fixed.draw(4), frame > 0) << frame;
+        EXPECT_FALSE(fixed.draw(4));
+        tracker.endFrame();
+        EXPECT_EQ(tracker.lastFrame().composited_early, frame > 0);
+    }
+}
+
+TEST(FrameTracker, AnOverlayInTheMiddleOfTheSceneIsPassedOver) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    std::vector<bool> moments;
+    for (int frame = 0; frame < 3; ++frame) {
+        moments.clear();
+        fixed.project(kLens);
+        moments.push_back(fixed.draw(500));
+        fixed.project(ortho());  // a sky, a mirror's mask
+        moments.push_back(fixed.draw(4));
+        fixed.project(kLens);
+        moments.push_back(fixed.draw(900));
+        fixed.project(ortho());
+        moments.push_back(fixed.draw(4));
+        tracker.endFrame();
+    }
+    EXPECT_EQ(moments, (std::vector<bool>{false, false, false, true}));
+}
+
+TEST(FrameTracker, WithoutAnOverlayTheSwapIsTheMoment) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    for (int frame = 0; frame < 3; ++frame) {
+        fixed.project(ortho());
+        EXPECT_FALSE(fixed.draw(4));
+        fixed.project(kLens);
+        EXPECT_FALSE(fixed.draw(100));
+        tracker.endFrame();
+    }
+    EXPECT_FALSE(tracker.lastFrame().composited_early);
+    EXPECT_TRUE(tracker.camera());
+}
+
+TEST(FrameTracker, AWeaponOverAClearedDepthComesAfterTheFluid) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    for (int frame = 0; frame < 3; ++frame) {
+        EXPECT_FALSE(tracker.clearsDepth());
+        fixed.project(kLens);
+        EXPECT_FALSE(fixed.draw(5000));
+        EXPECT_EQ(tracker.clearsDepth(), frame > 0);
+        fixed.project(frustum(-1, 1, -1, 1, 1, 10));
+        EXPECT_FALSE(fixed.draw(300));
+        tracker.endFrame();
+    }
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 1e-3);
+    EXPECT_LT(tracker.camera()->confidence, 0.95);
+}
+
+TEST(FrameTracker, TheCameraIsTheLensWithTheMostVertices) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    fixed.project(frustum(-1, 1, -1, 1, 1, 10));
+    (void)fixed.draw(10);
+    fixed.project(kLens);
+    (void)fixed.draw(1000);
+    const std::optional<FoundCamera> camera = tracker.camera();
+    ASSERT_TRUE(camera);
+    EXPECT_NEAR(camera->lens.far_plane, 512, 5);
+    EXPECT_EQ(camera->source, "projection matrix");
+}
+
+TEST(FrameTracker, TheViewIsThePushBeforeTheFirstDrawElseThatDrawsModelView) {
+    const Matrix view = product(turn(20), translation(0, -1, -9));
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    fixed.project(kLens);
+    fixed.model(view);
+    fixed.push();
+    fixed.model(product(view, translation(3, 0, 0)));
+    (void)fixed.draw(100);
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_NEAR(tracker.camera()->view[12], view[12], 1e-4F);
+    tracker.endFrame();
+    fixed.model(view);
+    (void)fixed.draw(100);
+    EXPECT_NEAR(tracker.camera()->view[14], view[14], 1e-4F);
+    EXPECT_EQ(tracker.camera()->view_source, "model-view matrix at the first draw");
+}
+
+TEST(FrameTracker, AProjectionThatIsSetOnceIsStillAskedForOncePerFrame) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    fixed.project(kLens);
+    for (int frame = 0; frame < 3; ++frame) {
+        for (int i = 0; i < 10; ++i) {
+            (void)fixed.draw(10);
+        }
+        tracker.endFrame();
+    }
+    EXPECT_EQ(fixed.asked(), 3);
+}
+
+TEST(FrameTracker, AProgramOfShadersIsKnownByItsMatrices) {
+    FrameTracker tracker;
+    std::vector<bool> moments;
+    for (int frame = 0; frame < 2; ++frame) {
+        moments.clear();
+        tracker.useProgram(3);
+        for (int i = 0; i < 4; ++i) {
+            tracker.uniform(3, product(kLens, translation(static_cast<float>(i), 0, -5)), UniformName::Unknown);
+            moments.push_back(tracker.draw(300));
+        }
+        tracker.useProgram(7);
+        moments.push_back(tracker.draw(4));
+        tracker.endFrame();
+    }
+    EXPECT_EQ(moments, (std::vector<bool>{false, false, false, false, true}));
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 2e-3);
+    EXPECT_GT(tracker.camera()->confidence, 0.8);  // four objects agree
+}
+
+TEST(FrameTracker, AViewThatIsNamedSoGoesWithAPureProjection) {
+    FrameTracker tracker;
+    tracker.useProgram(1);
+    tracker.uniform(1, kLens, UniformName::Unknown);
+    tracker.uniform(1, translation(0, -2, -8), UniformName::View);
+    tracker.uniform(1, translation(5, 5, 5), UniformName::Unknown);
+    (void)tracker.draw(10);
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_EQ(tracker.camera()->view, translation(0, -2, -8));
+}
+
+TEST(FrameTracker, DrawsIntoFramebuffersOfTheProgramsOwnDoNotCount) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    tracker.bindFramebuffer(4);
+    fixed.project(frustum(-1, 1, -1, 1, 1, 10));
+    (void)fixed.draw(100000);
+    EXPECT_FALSE(tracker.clearsDepth());
+    tracker.bindFramebuffer(0);
+    fixed.project(kLens);
+    (void)fixed.draw(10);
+    tracker.endFrame();
+    EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 1e-3);
+    EXPECT_EQ(tracker.lastFrame().foreign_draws, 1U);
+}
+
+TEST(FrameTracker, WhatADisplayListRecordsDoesNotHappen) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    fixed.project(kLens);
+    tracker.compileList(true);
+    fixed.project(ortho());
+    EXPECT_FALSE(tracker.draw(10));
+    tracker.compileList(false);
+    tracker.endFrame();
+    EXPECT_FALSE(tracker.camera());
+    EXPECT_EQ(tracker.lastFrame().flat_draws, 0U);
+}
+
+TEST(FrameTracker, TheProfileHasTheLastWord) {
+    FrameTracker tracker({.route = CameraRoute::FixedFunction,
+                          .overlay = OverlaySwitch::First,
+                          .view = ViewRule::Identity,
+                          .near_plane = 0.5,
+                          .far_plane = std::nullopt});
+    Fixed fixed(tracker);
+    tracker.uniform(3, frustum(-1, 1, -1, 1, 1, 10), UniformName::Unknown);
+    tracker.useProgram(3);
+    fixed.project(kLens);
+    fixed.model(translation(0, 0, -5));
+    (void)fixed.draw(10);
+    fixed.project(ortho());
+    EXPECT_TRUE(fixed.draw(4));
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_EQ(tracker.camera()->lens.near_plane, 0.5);
+    EXPECT_NEAR(tracker.camera()->lens.far_plane, 512, 5);
+    EXPECT_EQ(tracker.camera()->view, kIdentity);
+}
+
+TEST(FrameTracker, AFrameWithoutPerspectiveKeepsTheLastCamera) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    fixed.project(kLens);
+    (void)fixed.draw(10);
+    tracker.endFrame();
+    fixed.project(ortho());
+    EXPECT_FALSE(fixed.draw(10));
+    tracker.endFrame();
+    EXPECT_TRUE(tracker.camera());
+}
+
+}  // namespace
+}  // namespace sluice::inject::test
