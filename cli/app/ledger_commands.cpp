@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/ledger_commands.hpp"
 
+#include <CLI/CLI.hpp>
+
 #include "app/parse_values.hpp"
 
 namespace sluice::cli {

@@ -2,13 +2,16 @@
 // The commands about ordering: diagnose, explain-finding.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 
 #include "sluice/scene/scene.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace sluice::cli {
 

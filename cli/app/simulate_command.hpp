@@ -2,10 +2,13 @@
 // `sluice simulate`: its part of the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "app/options.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace sluice::cli {
 

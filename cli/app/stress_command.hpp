@@ -2,10 +2,13 @@
 // `sluice stress`: its part of the command line.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 
 #include "stress/options.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace sluice::cli {
 
