@@ -17,7 +17,7 @@ layout(std140, set = 0, binding = 0) uniform Frame {
     vec4 sun_radiance;
     vec4 filter_widths; // delta, mu, sigma; w = cap in pixels
     vec4 thickness;     // pixels per thickness texel; sigma of the blur; chord weight; depth below which no point is wide enough
-    uvec4 modes;        // x = encoding of HOST_DEPTH, y = particles
+    uvec4 modes;        // x = encoding of HOST_DEPTH, y = particles, z = bits of the longest axis of a splat in splat radii
 } frame;
 
 // The depth of "nothing here". Every real depth is far below it.
@@ -27,6 +27,8 @@ bool isEmpty(float depth) { return depth > 1e29; }
 float nearPlane() { return frame.depth_range.z; }
 float farPlane() { return frame.depth_range.w; }
 float splatRadius() { return frame.focal.z; }
+// The farthest that a splat reaches from its centre.
+float splatReach() { return frame.focal.z * uintBitsToFloat(frame.modes.z); }
 float particleRadius() { return frame.focal.w; }
 
 // The eye-space direction through a pixel position (x right, y up, (0.5, 0.5) is the centre of texel (0,0)), scaled so

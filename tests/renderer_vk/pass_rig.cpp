@@ -146,6 +146,11 @@ RigResult PassRig::render(const RigScene& scene) {
     needs.has_environment_map = scene.environment.empty() ? 0 : 1;
     needs.outputs = scene.outputs;
     needs.fluid = scene.fluid;
+    const std::vector<float>& splats = scene.ellipsoids.empty() ? scene.positions : scene.ellipsoids;
+    if (!scene.ellipsoids.empty()) {
+        needs.particle_count = static_cast<std::uint32_t>(scene.ellipsoids.size() / 9);
+        needs.fluid.ellipsoids = 1;
+    }
     auto plan = makePlan(needs);
     if (!plan) {
         result.failure = plan.error().message();
@@ -177,13 +182,13 @@ RigResult PassRig::render(const RigScene& scene) {
     rig.upload(host_colour, std::as_bytes(std::span(colour)));
     rig.upload(host_depth, std::as_bytes(std::span(depth)));
 
-    auto particles = Buffer::create(device, {std::max<std::size_t>(scene.positions.size(), 3) * sizeof(float),
+    auto particles = Buffer::create(device, {std::max<std::size_t>(splats.size(), 3) * sizeof(float),
                                              VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::Upload, "rig particles"});
     if (!particles) {
         result.failure = particles.error().message();
         return result;
     }
-    std::ranges::copy(std::as_bytes(std::span(scene.positions)), particles.value().mapped().begin());
+    std::ranges::copy(std::as_bytes(std::span(splats)), particles.value().mapped().begin());
 
     SluiceFrame frame{};
     frame.struct_size = sizeof frame;
@@ -213,7 +218,9 @@ RigResult PassRig::render(const RigScene& scene) {
                         VK_IMAGE_LAYOUT_GENERAL);
         }
         recorded = recorder_->record(commands, frame, result.plan, targets,
-                                     {particles.value().buffer(), needs.particle_count, scene.radius}, timer);
+                                     {particles.value().buffer(), needs.particle_count, scene.radius, VK_NULL_HANDLE,
+                                      particles.value().buffer(), scene.longest},
+                                     timer);
     });
     status = recorded ? status : recorded;
     if (!status) {

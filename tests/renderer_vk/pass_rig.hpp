@@ -32,13 +32,16 @@ inline constexpr SluiceFluid kWater{
     .refraction = 1,
     .reflection = 1,
     .view = SLUICE_VIEW_FLUID,
+    .ellipsoids = 0,
     .reserved = {},
 };
 
 /// Everything that a frame depends on. Host images are rows bottom-up; colour is sRGB-encoded RGBA8.
 struct RigScene {
     std::uint32_t width = 64, height = 48;
-    std::vector<float> positions;  ///< triples
+    std::vector<float> positions;   ///< triples
+    std::vector<float> ellipsoids;  ///< nine floats each, in place of positions; or empty
+    float longest = 1.0F;           ///< of their axes
     float radius = 0.05F;
     SluiceCamera camera{};
     SluiceSky sky{};

@@ -8,6 +8,7 @@ target_include_directories(sluice_pass_rig PUBLIC ${CMAKE_CURRENT_SOURCE_DIR})
 
 sluice_add_test(renderer_vk_plan_test pass_plan_test.cpp LIBS sluice_pass_rig rapidcheck rapidcheck_gtest)
 sluice_add_test(renderer_vk_pass_test OPTIMISED
+    pass_ellipsoid_test.cpp
     pass_filter_test.cpp
     pass_shade_test.cpp
     pass_splat_test.cpp

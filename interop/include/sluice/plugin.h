@@ -325,7 +325,8 @@ typedef struct SluiceFluid {
     uint32_t refraction;        /* 0: the host's colour is not sampled */
     uint32_t reflection;        /* 0: no environment is sampled */
     uint32_t view;              /* SluiceView */
-    uint32_t reserved[8];       /* zero */
+    uint32_t ellipsoids;        /* since ABI 1.2: 1: what a simulation shaped is drawn so, see its anisotropy */
+    uint32_t reserved[7];       /* zero */
 } SluiceFluid;
 
 /* A particle set on the CPU. Arrays are tightly packed float triples in world metres; velocity and colour may be NULL.

@@ -29,7 +29,9 @@ struct ParticleBuffers {
     VkBuffer position = VK_NULL_HANDLE;
     std::uint32_t count = 0;  ///< at most, if `draw` says how many
     float radius = 0.0F;
-    VkBuffer draw = VK_NULL_HANDLE;  ///< may be none; a VkDrawIndirectCommand of a vertex for each particle
+    VkBuffer draw = VK_NULL_HANDLE;        ///< may be none; a VkDrawIndirectCommand of a vertex for each particle
+    VkBuffer ellipsoids = VK_NULL_HANDLE;  ///< kEllipsoidFloats each, of plans with ellipsoids
+    float longest = 1.0F;                  ///< of their axes, in splat radii
 };
 
 /// What a pass tells of itself when it starts.

@@ -31,11 +31,12 @@ struct FluidRecorder::State {
     std::vector<FrameArena> arenas;
     PassImages images;
     // A pass that no plan has asked for yet is not built.
-    std::optional<SplatDepthPass> splat_depth;
+    // Of spheres and of ellipsoids.
+    std::array<std::optional<SplatDepthPass>, 2> splat_depth;
     std::optional<TilesPass> tiles;
     std::optional<FilterPass> filter;
     std::optional<NormalsPass> normals;
-    std::optional<SplatThicknessPass> splat_thickness;
+    std::array<std::optional<SplatThicknessPass>, 2> splat_thickness;
     std::optional<BlurThicknessPass> blur_thickness;
     ShadePass shade;
     std::optional<EchoPass> echo;
@@ -56,12 +57,12 @@ Status take(Result<T> result, T& into) {
 }
 
 /// Builds a pass that the plan has and the recorder lacks.
-template <typename Pass>
-Status build(const Device& device, const Plan& plan, PassId id, std::optional<Pass>& pass) {
+template <typename Pass, typename... Variant>
+Status build(const Device& device, const Plan& plan, PassId id, std::optional<Pass>& pass, Variant... variant) {
     if (pass || findPass(plan, id) == nullptr) {
         return {};
     }
-    auto made = Pass::create(device);
+    auto made = Pass::create(device, variant...);
     if (!made) {
         return made.error();
     }
@@ -175,11 +176,12 @@ Status FluidRecorder::prepare(const Plan& plan) {
         return {};
     }
     const Device& device = state_->device;
+    const std::size_t shape = plan.ellipsoids ? 1 : 0;
     for (const Status& status :
-         {build(device, plan, PassId::SplatDepth, state_->splat_depth),
+         {build(device, plan, PassId::SplatDepth, state_->splat_depth.at(shape), plan.ellipsoids),
           build(device, plan, PassId::Tiles, state_->tiles), build(device, plan, PassId::Filter, state_->filter),
           build(device, plan, PassId::Normals, state_->normals),
-          build(device, plan, PassId::SplatThickness, state_->splat_thickness),
+          build(device, plan, PassId::SplatThickness, state_->splat_thickness.at(shape), plan.ellipsoids),
           build(device, plan, PassId::BlurThickness, state_->blur_thickness),
           build(device, plan, PassId::Echo, state_->echo), build(device, plan, PassId::Clear, state_->clear)}) {
         if (!status) {
@@ -258,15 +260,17 @@ Status FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame,
     // A pixel less than the limit, for the rounding of positions and sizes.
     constants.thickness[3] =
         state_->device.features.large_points
-            ? nearestPointDepth(constants, state_->device.properties.limits.pointSizeRange[1] - 1.0F)
+            ? nearestPointDepth(constants, state_->device.properties.limits.pointSizeRange[1] - 1.0F,
+                                plan.ellipsoids ? particles.longest : 1.0F)
             : 1e30F;
     arena.begin(std::as_bytes(std::span(&constants, 1)));
     const PassContext context{state_->device, commands, frame, plan, targets, particles, timer, arena, state_->images};
+    const std::size_t shape = plan.ellipsoids ? 1 : 0;
     openImages(context);
     for (const PlannedPass& pass : plan.passes) {
         switch (pass.id) {
             case PassId::SplatDepth:
-                state_->splat_depth->record(context);
+                state_->splat_depth.at(shape)->record(context);
                 break;
             case PassId::Tiles:
                 state_->tiles->record(context);
@@ -278,7 +282,7 @@ Status FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame,
                 state_->normals->record(context);
                 break;
             case PassId::SplatThickness:
-                state_->splat_thickness->record(context);
+                state_->splat_thickness.at(shape)->record(context);
                 break;
             case PassId::BlurThickness:
                 state_->blur_thickness->record(context);

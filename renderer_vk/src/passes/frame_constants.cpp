@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "passes/frame_constants.hpp"
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -62,12 +63,13 @@ FrameConstants makeFrameConstants(const SluiceFrame& frame, const Plan& plan, co
         8.0 * std::pow(double{radius}, 3) / (4.0 / 3.0 * std::numbers::pi * std::pow(double{splat_radius}, 3));
     block.thickness = {std::round(1.0F / fluid.thickness_scale), fluid.thickness_blur * radius,
                        static_cast<float>(chord_weight), 0.0F};
-    block.modes = {static_cast<std::uint32_t>(targets.host_depth_encoding), particles.count, 0, 0};
+    block.modes = {static_cast<std::uint32_t>(targets.host_depth_encoding), particles.count,
+                   std::bit_cast<std::uint32_t>(plan.ellipsoids ? particles.longest : 1.0F), 0};
     return block;
 }
 
-float nearestPointDepth(const FrameConstants& block, float widest) {
-    const auto r = double{block.focal[2]};
+float nearestPointDepth(const FrameConstants& block, float widest, float longest) {
+    const double r = double{block.focal[2]} * double{longest};
     // Between the tangents at distance s = |(x, depth)| lie 2 r sqrt(s^2 - r^2) / (depth^2 - r^2) of slope (the
     // difference of the two bounds in shaders/common/splat.glsl); x is at most where the sphere still touches the
     // picture's edge.

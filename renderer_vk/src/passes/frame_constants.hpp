@@ -28,12 +28,13 @@ struct FrameConstants {
     Vec4 filter;     ///< delta, mu, sigma; w = cap in pixels
     Vec4 thickness;  ///< pixels per thickness texel; sigma of the blur; chord weight; depth below which no point is
                      ///< wide enough
-    std::array<std::uint32_t, 4> modes;  ///< SluiceDepthEncoding of HOST_DEPTH
+    std::array<std::uint32_t, 4> modes;  ///< SluiceDepthEncoding of HOST_DEPTH, particles, bits of the longest axis
 };
 static_assert(sizeof(FrameConstants) == 64 + 14 * 16, "std140 has no padding here");
 
-/// The depth from which on every sphere that touches the picture has a rectangle of at most `widest` pixels each way.
-[[nodiscard]] float nearestPointDepth(const FrameConstants& block, float widest);
+/// The depth from which on every splat that touches the picture has a rectangle of at most `widest` pixels each way. It
+/// lies within `longest` splat radii of its centre.
+[[nodiscard]] float nearestPointDepth(const FrameConstants& block, float widest, float longest);
 
 /// Derives the block, but for nearestPointDepth, which depends on the device. The projection may be off-centre; its
 /// fourth row must be (0, 0, -s, 0) with s > 0.

@@ -3,6 +3,9 @@
 
 #include <shaders/scene_depth_comp.h>
 #include <shaders/splat_depth_frag.h>
+#include <shaders/splat_ellipsoid_depth_frag.h>
+#include <shaders/splat_ellipsoid_thickness_frag.h>
+#include <shaders/splat_ellipsoid_vert.h>
 #include <shaders/splat_near_comp.h>
 #include <shaders/splat_thickness_frag.h>
 #include <shaders/splat_vert.h>
@@ -13,6 +16,7 @@
 #include <utility>
 
 #include "device/structs.hpp"
+#include "simulation/anisotropy.hpp"
 
 namespace sluice::vk {
 namespace {
@@ -78,6 +82,14 @@ Result<SplatPipelines> splatPipelines(const Device& device, SplatDesc desc, bool
     return SplatPipelines{std::move(points).value(), std::move(triangles).value()};
 }
 
+/// What a splat is made of, and bytes of it.
+VkBuffer splatsOf(const PassContext& context) {
+    return context.plan.ellipsoids ? context.particles.ellipsoids : context.particles.position;
+}
+std::uint64_t splatBytes(const PassContext& context) {
+    return context.plan.ellipsoids ? kEllipsoidFloats * sizeof(float) : 3 * sizeof(float);
+}
+
 /// Decides whether the indirect draw of triangles has any vertices in this frame.
 void findNear(const PassContext& context, const Pipeline& pipeline) {
     // Triangles, then points. How many particles a simulation has may be known to the device alone.
@@ -94,8 +106,7 @@ void findNear(const PassContext& context, const Pipeline& pipeline) {
           VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT,
           VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
               VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT);
-    const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position),
-                              readBuffer(near_draw)};
+    const std::array bindings{uniform(context.arena.constants()), readBuffer(splatsOf(context)), readBuffer(near_draw)};
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline, bindings);
     const std::uint32_t groups = (context.particles.count + kNearInvocations - 1) / kNearInvocations;
     context.device.fn.vkCmdDispatch(context.commands, std::min(groups, kNearRow), (groups + kNearRow - 1) / kNearRow,
@@ -106,21 +117,23 @@ void findNear(const PassContext& context, const Pipeline& pipeline) {
 
 }  // namespace
 
-Result<SplatDepthPass> SplatDepthPass::create(const Device& device) {
-    auto pipelines = splatPipelines(device,
-                                    {.name = "splat_depth",
-                                     .vertex = splat_vert,
-                                     .fragment = splat_depth_frag,
-                                     .bindings = kDepthBindings,
-                                     .target = VK_FORMAT_R32_SFLOAT,
-                                     .blend = VK_BLEND_OP_MIN},
-                                    false);
+Result<SplatDepthPass> SplatDepthPass::create(const Device& device, bool ellipsoids) {
+    auto pipelines = splatPipelines(
+        device,
+        {.name = "splat_depth",
+         .vertex = ellipsoids ? std::span<const std::uint32_t>(splat_ellipsoid_vert) : splat_vert,
+         .fragment = ellipsoids ? std::span<const std::uint32_t>(splat_ellipsoid_depth_frag) : splat_depth_frag,
+         .bindings = kDepthBindings,
+         .target = VK_FORMAT_R32_SFLOAT,
+         .blend = VK_BLEND_OP_MIN},
+        false);
     if (!pipelines) {
         return pipelines.error();
     }
     constexpr std::array bindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                   VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-    auto near = createCompute(device, {"splat_near", splat_near_comp, bindings, 0, {}});
+    const std::uint32_t floats = ellipsoids ? kEllipsoidFloats : 3;
+    auto near = createCompute(device, {"splat_near", splat_near_comp, bindings, 0, {&floats, 1}});
     if (!near) {
         return near.error();
     }
@@ -129,23 +142,25 @@ Result<SplatDepthPass> SplatDepthPass::create(const Device& device) {
 
 void SplatDepthPass::record(const PassContext& context) const {
     const std::uint64_t count = context.particles.count;
-    context.timer.begin(context.commands, {"splat_depth", count, count * 24 + context.pixels() * 4, true, 3});
+    context.timer.begin(context.commands,
+                        {"splat_depth", count, count * (12 + splatBytes(context)) + context.pixels() * 4, true, 3});
     findNear(context, near);
-    const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position)};
+    const std::array bindings{uniform(context.arena.constants()), readBuffer(splatsOf(context))};
     draw(context, {PlanImage::DepthA, 1e30F}, pipelines, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::DepthA);
 }
 
-Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device) {
-    auto pipelines = splatPipelines(device,
-                                    {.name = "splat_thickness",
-                                     .vertex = splat_vert,
-                                     .fragment = splat_thickness_frag,
-                                     .bindings = kThicknessBindings,
-                                     .target = VK_FORMAT_R32_SFLOAT,
-                                     .blend = VK_BLEND_OP_ADD},
-                                    true);
+Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device, bool ellipsoids) {
+    auto pipelines = splatPipelines(
+        device,
+        {.name = "splat_thickness",
+         .vertex = ellipsoids ? std::span<const std::uint32_t>(splat_ellipsoid_vert) : splat_vert,
+         .fragment = ellipsoids ? std::span<const std::uint32_t>(splat_ellipsoid_thickness_frag) : splat_thickness_frag,
+         .bindings = kThicknessBindings,
+         .target = VK_FORMAT_R32_SFLOAT,
+         .blend = VK_BLEND_OP_ADD},
+        true);
     if (!pipelines) {
         return pipelines.error();
     }
@@ -161,17 +176,17 @@ Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device) {
 void SplatThicknessPass::record(const PassContext& context) const {
     const Image& image = context.images[PlanImage::Thickness];
     const std::uint64_t count = context.particles.count;
-    context.timer.begin(
-        context.commands,
-        {"splat_thickness", count,
-         count * 12 + context.pixels() * 4 + std::uint64_t{image.width()} * image.height() * 12, true, 3});
+    context.timer.begin(context.commands, {"splat_thickness", count,
+                                           count * splatBytes(context) + context.pixels() * 4 +
+                                               std::uint64_t{image.width()} * image.height() * 12,
+                                           true, 3});
     const std::array scene_bindings{
         uniform(context.arena.constants()), readBuffer(context.images.thickness_tiles.buffer()),
         sampled(context.targets.host_depth.view), storage(context.images[PlanImage::SceneDepth].view())};
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, scene, scene_bindings);
     dispatchTiles(context, context.images.thickness_tiles);
     beforeFragments(context);
-    const std::array bindings{uniform(context.arena.constants()), readBuffer(context.particles.position),
+    const std::array bindings{uniform(context.arena.constants()), readBuffer(splatsOf(context)),
                               sampled(context.images[PlanImage::SceneDepth].view())};
     draw(context, {PlanImage::Thickness, 0.0F}, pipelines, bindings);
     context.timer.end(context.commands);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Spheres drawn as points or triangles: nearest depth, and sum of thickness.
+// Spheres, or ellipsoids, drawn as points or triangles: nearest depth, and sum of thickness.
 #pragma once
 
 #include "passes/context.hpp"
@@ -7,14 +7,14 @@
 
 namespace sluice::vk {
 
-/// The same spheres, drawn in one of two ways.
+/// The same splats, drawn in one of two ways.
 struct SplatPipelines {
-    Pipeline points;     ///< one vertex per sphere
-    Pipeline triangles;  ///< one triangle per sphere that is too near to be a point
+    Pipeline points;     ///< one vertex per splat
+    Pipeline triangles;  ///< one triangle per splat that is too near to be a point
 };
 
 struct SplatDepthPass {
-    static Result<SplatDepthPass> create(const Device& device);
+    static Result<SplatDepthPass> create(const Device& device, bool ellipsoids);
     /// Also decides, for both splats, whether triangles are needed.
     void record(const PassContext& context) const;
     SplatPipelines pipelines;
@@ -22,7 +22,7 @@ struct SplatDepthPass {
 };
 
 struct SplatThicknessPass {
-    static Result<SplatThicknessPass> create(const Device& device);
+    static Result<SplatThicknessPass> create(const Device& device, bool ellipsoids);
     void record(const PassContext& context) const;
     SplatPipelines pipelines;
     Pipeline scene;  ///< the scene's depth at the resolution of thickness

@@ -131,7 +131,9 @@ class Builder {
 
     void surface() {
         image(PlanImage::DepthA, SLUICE_FORMAT_R32F);
-        keep(PassId::SplatDepth, {}, {PlanImage::DepthA}, 3, "every view of the fluid needs its depth");
+        plan_.ellipsoids = needs_.fluid.ellipsoids != 0;
+        keep(PassId::SplatDepth, {}, {PlanImage::DepthA}, 3,
+             fmt::format("every view of the fluid needs its depth{}", plan_.ellipsoids ? "; of ellipsoids" : ""));
         tiles();
         if (wants_.filter) {
             plan_.filter_iterations = needs_.fluid.filter_iterations;

@@ -81,6 +81,7 @@ struct Plan {
     std::uint32_t width = 0, height = 0;
     SluiceView view = SLUICE_VIEW_FLUID;
     std::uint32_t filter_iterations = 0;
+    bool ellipsoids = false;  ///< splats are what their neighbours make of them, not spheres
     bool refraction = false;
     bool reflection = false;
     bool environment_map = false;

@@ -239,6 +239,7 @@ Status SluiceRenderer::preparePlan(const SluiceFrame& frame) {
     needs.has_environment_map = has_environment_ ? 1 : 0;
     needs.outputs = frame.outputs;
     needs.fluid = frame.fluid;
+    needs.fluid.ellipsoids = 0;
     Result<Plan> plan = makePlan(needs);
     if (!plan) {
         return plan.error();

@@ -28,16 +28,22 @@ double smoothstep(double low, double high, double x) {
     return t * t * (3 - 2 * t);
 }
 
-/// Depths at which a ray enters and leaves a sphere, and the squared distance of the ray from the centre.
+/// Depths at which a ray enters and leaves a splat, and the distance of the ray from the centre where the splat is a
+/// unit sphere.
 struct Hit {
-    double enter, leave, distance_squared;
+    double enter, leave, distance;
 };
-Hit hit(const Vec3& ray, const Vec3& centre, double radius) {
+Hit hit(const Vec3& eye_ray, const Vec3& eye_centre, const std::array<Vec3, 3>& inverse) {
+    const auto unitSpace = [&](const Vec3& v) {
+        return Vec3{dot(inverse[0], v), dot(inverse[1], v), dot(inverse[2], v)};
+    };
+    const Vec3 ray = unitSpace(eye_ray);
+    const Vec3 centre = unitSpace(eye_centre);
     const double foot = dot(centre, ray) / dot(ray, ray);
     const Vec3 offset = minus(centre, scaled(ray, foot));
     const double squared = dot(offset, offset);
-    const double half = std::sqrt(std::max(radius * radius - squared, 0.0) / dot(ray, ray));
-    return {foot - half, foot + half, squared};
+    const double half = std::sqrt(std::max(1.0 - squared, 0.0) / dot(ray, ray));
+    return {foot - half, foot + half, std::sqrt(squared)};
 }
 
 struct Kernel {
@@ -95,16 +101,38 @@ ReferenceFrame::ReferenceFrame(const RigScene& s) : scene(s) {
     focal_x = px * s.width / 2;
     focal_y = py * s.height / 2;
     splat_radius = double{s.fluid.splat_radius} * double{s.radius};
-    for (std::size_t i = 0; i + 2 < s.positions.size(); i += 3) {
-        Vec3 eye{};
-        for (std::size_t row = 0; row < 3; ++row) {
-            eye[row] = double{s.camera.view[12 + row]};
-            for (std::size_t column = 0; column < 3; ++column) {
-                eye[row] += double{s.camera.view[column * 4 + row]} * double{s.positions[i + column]};
-            }
-        }
-        eyes.push_back(eye);
+    for (std::size_t i = 0; i < s.ellipsoids.size(); i += 9) {
+        addSplat(&s.ellipsoids[i]);
     }
+    for (std::size_t i = 0; s.ellipsoids.empty() && i + 2 < s.positions.size(); i += 3) {
+        const std::array<float, 9> sphere{s.positions[i], s.positions[i + 1], s.positions[i + 2], 1, 0, 0, 1, 0, 1};
+        addSplat(sphere.data());
+    }
+}
+
+void ReferenceFrame::addSplat(const float* e) {
+    Vec3 eye{};
+    std::array<Vec3, 3> turn{};
+    for (std::size_t row = 0; row < 3; ++row) {
+        eye[row] = double{scene.camera.view[12 + row]};
+        for (std::size_t column = 0; column < 3; ++column) {
+            turn[row][column] = double{scene.camera.view[column * 4 + row]};
+            eye[row] += turn[row][column] * double{e[column]};
+        }
+    }
+    eyes.push_back(eye);
+    const std::array<Vec3, 3> m{{{double{e[3]}, double{e[4]}, double{e[5]}},
+                                 {double{e[4]}, double{e[6]}, double{e[7]}},
+                                 {double{e[5]}, double{e[7]}, double{e[8]}}}};
+    std::array<Vec3, 3> inverse{cross(m[1], m[2]), cross(m[2], m[0]), cross(m[0], m[1])};
+    const double size = dot(m[0], inverse[0]) * splat_radius;
+    double largest = 0.0;
+    for (Vec3& row : inverse) {
+        largest += dot(row, row) / (size * size);  // at least the square of the largest stretch of the inverse
+        row = scaled({dot(row, turn[0]), dot(row, turn[1]), dot(row, turn[2])}, 1.0 / size);
+    }
+    inverses.push_back(inverse);
+    thinnest.push_back(1.0 / std::sqrt(largest));
 }
 
 Vec3 ReferenceFrame::ray(double x, double y) const {
@@ -133,16 +161,15 @@ std::vector<double> referenceSplat(const ReferenceFrame& frame, std::vector<doub
     for (std::size_t texel = 0; texel < depth.size(); ++texel) {
         const Vec3 ray =
             frame.ray(static_cast<double>(texel % scene.width) + 0.5, static_cast<double>(texel / scene.width) + 0.5);
-        for (const Vec3& eye : frame.eyes) {
-            const Hit h = hit(ray, eye, frame.splat_radius);
-            const double distance = std::sqrt(h.distance_squared);
+        for (std::size_t i = 0; i < frame.eyes.size(); ++i) {
+            const Hit h = hit(ray, frame.eyes[i], frame.inverses[i]);
             const double d = std::max(h.enter, near);
             if (slack != nullptr && h.leave > near) {
-                const double pixels = std::abs(distance - frame.splat_radius) * frame.focal_y /
-                                      std::max(-eye[2], near) / std::sqrt(dot(ray, ray));
+                const double pixels = std::abs(h.distance - 1.0) * frame.thinnest[i] * frame.focal_y /
+                                      std::max(-frame.eyes[i][2], near) / std::sqrt(dot(ray, ray));
                 (*slack)[texel] = std::min((*slack)[texel], pixels);
             }
-            if (distance < frame.splat_radius && d <= h.leave && d <= far) {
+            if (h.distance < 1.0 && d <= h.leave && d <= far) {
                 depth[texel] = std::min(depth[texel], d);
             }
         }
@@ -165,8 +192,8 @@ std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_
                     behind = std::max(behind, frame.sceneDepth(static_cast<std::size_t>(v * scene.width + u)));
                 }
             }
-            for (const Vec3& eye : frame.eyes) {
-                const Hit h = hit(ray, eye, frame.splat_radius);
+            for (std::size_t i = 0; i < frame.eyes.size(); ++i) {
+                const Hit h = hit(ray, frame.eyes[i], frame.inverses[i]);
                 const double chord = std::min(h.leave, behind) - std::max(h.enter, double{scene.camera.near_plane});
                 result[std::size_t{y} * width + x] += weight * std::max(chord, 0.0) * std::sqrt(dot(ray, ray));
             }

@@ -23,7 +23,11 @@ struct ReferenceFrame {
     double focal_x, focal_y;
     double splat_radius;
     std::vector<Vec3> eyes;
+    std::vector<std::array<Vec3, 3>> inverses;  ///< of each splat, eye space to a unit sphere about its centre: rows
+    std::vector<double> thinnest;               ///< shortest half axis, metres
 
+    /// Nine floats: centre and stretch of a sphere.
+    void addSplat(const float* ellipsoid);
     [[nodiscard]] Vec3 ray(double x, double y) const;  ///< through a pixel position, z = -1
     [[nodiscard]] double sceneDepth(std::size_t texel) const;
 };
