@@ -191,6 +191,9 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulat
     const double most =
         simulator::mostParticles(setup, live.count(), static_cast<double>(request.last_frame) * live.frame_s);
     s.max_particles = static_cast<std::uint32_t>(std::clamp(most, 1.0, static_cast<double>(kMostSimulated)));
+    s.anisotropy = scene.simulation.anisotropy.ratio;
+    s.smoothing = scene.simulation.anisotropy.smoothing;
+    s.lonely = scene.simulation.anisotropy.lonely;
     s.longest_step = std::min(1.0, live.frame_s / scene.simulation.steps_per_frame);
     return live;
 }

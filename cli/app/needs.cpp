@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/needs.hpp"
 
+#include "app/live_fluid.hpp"
+
 namespace sluice::cli {
 
 SluiceSceneNeeds sceneNeeds(const scene::Scene& scene, scene::Size size, std::uint32_t particles,
@@ -13,6 +15,9 @@ SluiceSceneNeeds sceneNeeds(const scene::Scene& scene, scene::Size size, std::ui
     needs.has_environment_map = scene.environment.empty() ? 0 : 1;
     needs.outputs = outputs;
     needs.fluid = scene.fluid;
+    if (!simulatesLive(scene) || scene.simulation.anisotropy.ratio == 0.0F) {
+        needs.fluid.ellipsoids = 0;
+    }
     return needs;
 }
 

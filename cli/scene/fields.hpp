@@ -76,6 +76,7 @@ void visitFluid(Visitor& v, SluiceFluid& f) {
     v.number("thickness_blur", f.thickness_blur, Range{0.0, 100.0});
     v.flag("refraction", f.refraction);
     v.flag("reflection", f.reflection);
+    v.flag("ellipsoids", f.ellipsoids);
     v.choice("view", f.view, kViews);
 }
 
@@ -175,6 +176,11 @@ void visitSimulation(Visitor& v, Simulation& s) {
     v.number("adhesion", s.adhesion, Range{0.0, 100.0});
     v.number("cfl", s.cfl, Range{0.01, 0.5});
     v.number("overshoot", s.overshoot, Range{0.0, 1.0});
+    v.object("anisotropy", [&s](auto& o) {
+        o.number("ratio", s.anisotropy.ratio, Range{0.0, 10.0});
+        o.number("smoothing", s.anisotropy.smoothing, kUnit);
+        o.number("lonely", s.anisotropy.lonely, Range{0.0, 1.0, true});
+    });
     v.number("jitter", s.jitter, Range{0.0, 0.5});
     v.flag("collide_with_engine", s.collide_with_engine);
     v.list("fluid", s.fluid, [](auto& o, FluidBox& box) {

@@ -152,6 +152,9 @@ void checkSimulation(ObjectReader& reader, const Simulation& s) {
     checkBox(reader, "simulation/domain", s.low, s.high);
     checkSources(reader, s);
     checkBodies(reader, s);
+    if (const float ratio = s.anisotropy.ratio; ratio != 0.0F && ratio < 1.0F) {
+        reader.fail("simulation/anisotropy/ratio", "a number in [1, 10], or 0 for spheres", fmt::format("{}", ratio));
+    }
     for (std::size_t i = 0; i < s.fluid.size(); ++i) {
         const std::string key = fmt::format("simulation/fluid/{}", i);
         checkBox(reader, key, s.fluid[i].low, s.fluid[i].high);

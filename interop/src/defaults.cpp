@@ -32,6 +32,7 @@ SluiceFluid defaultFluid() {
     fluid.refraction = 1;
     fluid.reflection = 1;
     fluid.view = SLUICE_VIEW_FLUID;
+    fluid.ellipsoids = 1;  // where a simulation has shaped them
     return fluid;
 }
 

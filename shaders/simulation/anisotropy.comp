@@ -4,9 +4,11 @@
 // The ellipsoid that stands for each particle, from where its neighbours lie (after Yu & Turk 2013): flat where they form a
 // surface, long where they form a thread, small and round where there are none. docs/simulation.md has the formulas.
 // Inputs:  the particles of the last step in sorted order with their lists; behind them those that were born at its end.
+//          Whose they are, and places.comp's count where somebody comes or goes and places are asked for.
 // Outputs: nine floats for each place: centre, world metres; then xx, xy, xz, yy, yz, zz of the symmetric stretch M that
 //          makes a sphere of radius R about the centre into the ellipsoid { centre + R M u, |u| <= 1 }.
 // Bound of its test: 2e-5 in every entry of M, 1e-5 radii in the centre.
+#include "places.glsl"
 #include "simulation.glsl"
 #include "symmetric.glsl"
 
@@ -17,13 +19,16 @@ layout(push_constant) uniform Push {
     float ratio;      // greatest of the longest to the shortest axis
     float smoothing;  // how far the centre goes to the mean of its neighbours, 0 to 1
     float lonely;     // size of a particle without neighbours
+    uint placed;      // 0: the place is the identity, and marks and before are nothing
 } push;
 layout(set = 0, binding = 1) uniform textureBuffer sorted;
 layout(set = 0, binding = 2) uniform utextureBuffer list;
 layout(std430, set = 0, binding = 3) readonly buffer ListCount { uint list_count[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Positions { vec4 position[]; };
-layout(std430, set = 0, binding = 5) readonly buffer Places { uint place[]; };
+layout(std430, set = 0, binding = 5) readonly buffer Identities { uint identity[]; };
 layout(std430, set = 0, binding = 6) writeonly buffer Ellipsoids { float ellipsoid[]; };
+layout(std430, set = 0, binding = 7) readonly buffer Marks { uint marks[]; };
+layout(std430, set = 0, binding = 8) readonly buffer Before { uint before[]; };
 
 // Variance along an axis of the weighted neighbours of a lattice at rest, in squares of the support.
 const float AT_REST = 0.144627;
@@ -73,7 +78,11 @@ void main() {
     const vec3 ys = a.y * axes[0] + b.y * axes[1] + c.y * axes[2];
     const float zz = a.z * axes[0].z + b.z * axes[1].z + c.z * axes[2].z;
     const vec3 centre = x + push.smoothing * h * mean;
-    const uint to = 9u * place[i];
+    uint place = identity[i];
+    if (push.placed != 0u) {
+        place = placeOf(marks[place >> 5], before[place >> 5], place);
+    }
+    const uint to = 9u * place;
     ellipsoid[to] = centre.x;
     ellipsoid[to + 1u] = centre.y;
     ellipsoid[to + 2u] = centre.z;

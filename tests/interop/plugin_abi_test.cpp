@@ -156,7 +156,7 @@ static_assert(sizeof(SluiceSolid) == 64, "it stands in arrays");
 static_assert(offsetof(SluiceSimulation, gravity) == 36 && offsetof(SluiceSimulation, longest_step) == 72);
 static_assert(offsetof(SluiceSimulation, solids) == 88 && offsetof(SluiceSimulation, tension) == 112);
 static_assert(offsetof(SluiceSimulation, emitters) == 144 && offsetof(SluiceSimulation, mesh_indices) == 200);
-static_assert(sizeof(SluiceSimulation) == 224);
+static_assert(offsetof(SluiceSimulation, anisotropy) == 224 && sizeof(SluiceSimulation) == 240);
 static_assert(sizeof(SluiceEmitter) == 80 && sizeof(SluiceDrain) == 48 && sizeof(SluiceForceField) == 64);
 static_assert(sizeof(SluiceBody) == 96 && sizeof(SluicePathPoint) == 32 && sizeof(SluiceMesh) == 32);
 static_assert(sizeof(SluiceBodyState) == 96 && offsetof(SluiceBodies, bodies) == 16);

@@ -28,5 +28,6 @@ sluice_add_test(renderer_vk_simulation_test OPTIMISED
     simulation_sources_test.cpp
     simulation_step_test.cpp
     simulation_tension_test.cpp
+    simulation_whitewater_test.cpp
     LIBS sluice_renderer_vk_core sluice_shaders)
 target_include_directories(renderer_vk_simulation_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR})

@@ -7,12 +7,17 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <functional>
 #include <memory>
 #include <numeric>
 #include <random>
 #include <vector>
 
+#include "device/commands.hpp"
 #include "device/device.hpp"
+#include "device/one_shot.hpp"
+#include "memory/buffer.hpp"
 #include "simulation/solver.hpp"
 #include "simulation/vector.hpp"
 
@@ -43,6 +48,26 @@ class SimulationTest : public ::testing::Test {
         return std::move(solver).value();
     }
     [[nodiscard]] const Device& device() const { return *device_; }
+    /// What `fill` leaves in a buffer of so many floats, which were all `before`.
+    [[nodiscard]] std::vector<float> filled(std::size_t floats, float before,
+                                            const std::function<Status(VkBuffer)>& fill) const {
+        std::vector<float> out(floats, before);
+        const VkDeviceSize bytes = floats * sizeof(float);
+        Result<Buffer> buffer =
+            Buffer::create(*device_, {bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                      BufferPlace::Upload, "what a test looks at"});
+        EXPECT_TRUE(buffer.ok());
+        std::memcpy(buffer.value().mapped().data(), out.data(), bytes);
+        const Status status = fill(buffer.value().buffer());
+        EXPECT_TRUE(status.ok()) << status.error().message();
+        const Status seen = runOnce(*device_, [this](VkCommandBuffer commands) {
+            memoryBarrier(*device_, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+                          VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
+        });
+        EXPECT_TRUE(seen.ok());
+        std::memcpy(out.data(), buffer.value().mapped().data(), bytes);
+        return out;
+    }
 
   private:
     std::unique_ptr<Device> device_;

@@ -5,11 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
-#include "device/commands.hpp"
-#include "device/one_shot.hpp"
-#include "memory/buffer.hpp"
 #include "reference/shape_reference.hpp"
 #include "simulation_rig.hpp"
 
@@ -24,21 +20,7 @@ constexpr float kUntouched = -77.0F;
 class SimulationShape : public SimulationTest {
   protected:
     [[nodiscard]] std::vector<float> ellipsoids(Solver& solver, const Anisotropy& how, std::size_t count) const {
-        std::vector<float> out(kEllipsoidFloats * count, kUntouched);
-        const VkDeviceSize bytes = out.size() * sizeof(float);
-        Result<Buffer> buffer = Buffer::create(
-            device(), {bytes, VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::Upload, "ellipsoids of a test"});
-        EXPECT_TRUE(buffer.ok());
-        std::memcpy(buffer.value().mapped().data(), out.data(), bytes);
-        const Status status = solver.ellipsoids(how, buffer.value().buffer());
-        EXPECT_TRUE(status.ok()) << status.error().message();
-        const Status seen = runOnce(device(), [this](VkCommandBuffer commands) {
-            memoryBarrier(device(), commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
-                          VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-        });
-        EXPECT_TRUE(seen.ok());
-        std::memcpy(out.data(), buffer.value().mapped().data(), bytes);
-        return out;
+        return filled(kEllipsoidFloats * count, kUntouched, [&](VkBuffer to) { return solver.ellipsoids(how, to); });
     }
 };
 

@@ -507,6 +507,9 @@ typedef struct SluiceSimulation {
     const uint32_t* mesh_indices; /* three a triangle */
     uint32_t path_point_count, mesh_count;
     uint32_t mesh_corner_count, mesh_triangle_count; /* of all meshes together */
+    float anisotropy;        /* greatest ratio of a particle's axes, 1 to 10; 0: particles have no shape */
+    float smoothing, lonely; /* 0 to 1: how far centres go to their neighbours' mean; size without neighbours, 0: 0.5 */
+    uint32_t reserved;       /* zero */
 } SluiceSimulation;
 
 typedef struct SluiceSimulationStats {

@@ -44,6 +44,7 @@ LiveSimulation::LiveSimulation(const RendererTimeline& timeline, const Tracer& t
       device_(std::move(device)),
       longest_step_(setup.longest_step),
       most_particles_(setup.most_particles),
+      shaped_(setup.anisotropy.has_value()),
       bodies_(setup.settings.bodies),
       reports_(setup.frames_in_flight + 1, startsOf(setup.settings.bodies)),
       readers_(setup.frames_in_flight + 1),
@@ -80,8 +81,8 @@ Status LiveSimulation::start(const LiveSetup& setup) {
     if (Status status = solver_->setParticles(setup.position, setup.velocity); !status) {
         return status;
     }
-    Result<std::unique_ptr<OutputSlots>> slots =
-        OutputSlots::create(*device_, setup.frames_in_flight + 1, most_particles_, setup.settings.radius);
+    Result<std::unique_ptr<OutputSlots>> slots = OutputSlots::create(
+        *device_, setup.frames_in_flight + 1, most_particles_, setup.settings.radius, setup.anisotropy);
     if (!slots) {
         return slots.error();
     }
@@ -375,6 +376,9 @@ Status LiveSimulation::publish(std::uint64_t value) {
     signal.semaphore = semaphore_;
     signal.value = value;
     signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    if (Status status = slots_->shape(*solver_, value); !status) {
+        return status;
+    }
     const DeviceParticles state = solver_->onDevice();
     if (Status status = slots_->publish(state, value, signal); !status) {
         return status;

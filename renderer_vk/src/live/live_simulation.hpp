@@ -37,6 +37,7 @@ struct LiveSetup {
     double longest_step = 1.0;
     std::uint32_t frames_in_flight = 1;
     std::uint32_t most_particles = 0;  ///< that there will ever be; room of the output slots
+    std::optional<Anisotropy> anisotropy;
 };
 
 /// Where a driven body is to be.
@@ -80,6 +81,8 @@ class LiveSimulation {
     void drawn(std::uint64_t value, std::uint64_t signal_value);
     /// The most that there will ever be.
     [[nodiscard]] std::uint32_t particles() const { return most_particles_; }
+    /// Its particles are ellipsoids.
+    [[nodiscard]] bool shaped() const { return shaped_; }
 
     /// No more values: the thread ends after the step under way, and every value that was asked for is signalled, so
     /// that no frame waits for ever. Does not wait.
@@ -120,6 +123,7 @@ class LiveSimulation {
     std::unique_ptr<Device> device_;  ///< a view, with the simulation's queue
     double longest_step_;
     std::uint32_t most_particles_;
+    bool shaped_;
     std::vector<Body> bodies_;  ///< as they were given
     BodyReports reports_;
     VkSemaphore semaphore_ = VK_NULL_HANDLE;

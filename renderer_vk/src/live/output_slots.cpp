@@ -22,8 +22,8 @@ struct Push {
     std::uint32_t count, changing;
 };
 
-Result<Buffer> makeTriples(const Device& device, std::uint32_t particles, const char* name) {
-    const VkDeviceSize bytes = VkDeviceSize{particles} * 3 * sizeof(float);
+Result<Buffer> makeFloats(const Device& device, std::uint32_t particles, std::size_t each, const char* name) {
+    const VkDeviceSize bytes = VkDeviceSize{particles} * each * sizeof(float);
     if (bytes > device.properties.limits.maxStorageBufferRange) {
         return Error{SLUICE_ERROR_UNSUPPORTED, name,
                      fmt::format("{} particles need a buffer of {} bytes, this device binds at most {}", particles,
@@ -39,16 +39,21 @@ Result<Buffer> makeTriples(const Device& device, std::uint32_t particles, const 
 }  // namespace
 
 Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, std::uint32_t slots,
-                                                         std::uint32_t particles, float radius) {
+                                                         std::uint32_t particles, float radius,
+                                                         const std::optional<Anisotropy>& anisotropy) {
+    if (Status status = anisotropy ? checkAnisotropy(*anisotropy) : Status{}; !status) {
+        return status.error();
+    }
     auto made = std::make_unique<OutputSlots>(device);
     made->particles_ = particles;
     made->radius_ = radius;
+    made->anisotropy_ = anisotropy;
     for (std::uint32_t i = 0; i < slots; ++i) {
-        Result<Buffer> position = makeTriples(device, particles, "simulated positions");
+        Result<Buffer> position = makeFloats(device, particles, 3, "simulated positions");
         if (!position) {
             return position.error();
         }
-        Result<Buffer> velocity = makeTriples(device, particles, "simulated velocities");
+        Result<Buffer> velocity = makeFloats(device, particles, 3, "simulated velocities");
         if (!velocity) {
             return velocity.error();
         }
@@ -58,7 +63,16 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
         if (!draw) {
             return draw.error();
         }
-        made->slots_.push_back({std::move(position).value(), std::move(velocity).value(), std::move(draw).value()});
+        Buffer ellipsoids;
+        if (anisotropy) {
+            Result<Buffer> shapes = makeFloats(device, particles, kEllipsoidFloats, "simulated ellipsoids");
+            if (!shapes) {
+                return shapes.error();
+            }
+            ellipsoids = std::move(shapes).value();
+        }
+        made->slots_.push_back(
+            {std::move(position).value(), std::move(velocity).value(), std::move(draw).value(), std::move(ellipsoids)});
     }
     // A frame that is told not to wait (a fault of tests) shall read what is defined.
     const Status cleared = runOnce(device, [&](VkCommandBuffer commands) {
@@ -66,6 +80,9 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
             device.fn.vkCmdFillBuffer(commands, slot.position.buffer(), 0, VK_WHOLE_SIZE, 0);
             device.fn.vkCmdFillBuffer(commands, slot.velocity.buffer(), 0, VK_WHOLE_SIZE, 0);
             device.fn.vkCmdFillBuffer(commands, slot.draw.buffer(), 0, VK_WHOLE_SIZE, 0);
+            if (slot.ellipsoids) {
+                device.fn.vkCmdFillBuffer(commands, slot.ellipsoids.buffer(), 0, VK_WHOLE_SIZE, 0);
+            }
         }
     });
     if (!cleared) {
@@ -91,6 +108,25 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
 
 OutputSlots::~OutputSlots() {
     device_.fn.vkDestroyDescriptorPool(device_.handle, pool_, nullptr);
+}
+
+Status OutputSlots::shape(Solver& solver, std::uint64_t value) {
+    if (!anisotropy_) {
+        return {};
+    }
+    const DeviceParticles state = solver.onDevice();
+    PlaceBuffers places;
+    if (state.changing) {
+        if (Status status = places_->prepare(state); !status) {
+            return status;
+        }
+        const auto count = [&](VkCommandBuffer commands) { places_->record(commands, state); };
+        if (Status status = runOnce(device_, count); !status) {
+            return status;
+        }
+        places = {places_->marks(), places_->before()};
+    }
+    return solver.ellipsoids(*anisotropy_, slot(value).ellipsoids.buffer(), places);
 }
 
 Status OutputSlots::publish(const DeviceParticles& state, std::uint64_t value, const VkSemaphoreSubmitInfo& signal) {
@@ -133,7 +169,12 @@ Status OutputSlots::publish(const DeviceParticles& state, std::uint64_t value, c
 }
 
 ParticleBuffers OutputSlots::buffers(std::uint64_t value) const {
-    return {slot(value).position.buffer(), particles_, radius_, slot(value).draw.buffer()};
+    ParticleBuffers out{slot(value).position.buffer(), particles_, radius_, slot(value).draw.buffer()};
+    if (anisotropy_) {
+        out.ellipsoids = slot(value).ellipsoids.buffer();
+        out.longest = longestStretch(anisotropy_->ratio);
+    }
+    return out;
 }
 
 }  // namespace sluice::vk

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "frame/pass_context.hpp"
@@ -17,10 +18,11 @@
 namespace sluice::vk {
 
 /// Packed float triples, in the order in which the particles were given or born, without those that are gone: `draw`, a
-/// VkDrawIndirectCommand, has their number. What else frames will read of a particle (anisotropy, whitewater) gets a
-/// buffer here; shaders/common/places.glsl says where a particle lies in it.
+/// VkDrawIndirectCommand, has their number. What else frames read of a particle gets a buffer here;
+/// shaders/common/places.glsl says where a particle lies in it.
 struct OutputSlot {
     Buffer position, velocity, draw;
+    Buffer ellipsoids;  ///< kEllipsoidFloats each, if they were asked for
 };
 
 /// Value v lies in slot v mod count(). Filled by the simulation's thread, read by frames. Pinned; dies before `device`,
@@ -29,12 +31,16 @@ class OutputSlots {
   public:
     /// `device`: that of the solver, a computeView(). `particles`: the most that there will ever be, at least 1.
     static Result<std::unique_ptr<OutputSlots>> create(const Device& device, std::uint32_t slots,
-                                                       std::uint32_t particles, float radius);
+                                                       std::uint32_t particles, float radius,
+                                                       const std::optional<Anisotropy>& anisotropy);
     explicit OutputSlots(const Device& device) : device_(device) {}
     OutputSlots(const OutputSlots&) = delete;
     OutputSlots& operator=(const OutputSlots&) = delete;
     ~OutputSlots();
 
+    /// The shapes of the particles of `solver` into the slot of `value`, if they were asked for; returns when the
+    /// device has done it. Before publish.
+    [[nodiscard]] Status shape(Solver& solver, std::uint64_t value);
     /// Copies `state` into the slot of `value`, signals, and returns when the device has done it. No work under way may
     /// use that slot.
     [[nodiscard]] Status publish(const DeviceParticles& state, std::uint64_t value,
@@ -48,6 +54,7 @@ class OutputSlots {
     const Device& device_;
     std::uint32_t particles_ = 0;
     float radius_ = 0.0F;
+    std::optional<Anisotropy> anisotropy_;
     std::vector<OutputSlot> slots_;
     std::unique_ptr<ParticlePlaces> places_;
     Pipeline pipeline_;

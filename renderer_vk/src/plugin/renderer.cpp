@@ -239,7 +239,9 @@ Status SluiceRenderer::preparePlan(const SluiceFrame& frame) {
     needs.has_environment_map = has_environment_ ? 1 : 0;
     needs.outputs = frame.outputs;
     needs.fluid = frame.fluid;
-    needs.fluid.ellipsoids = 0;
+    if (frame.simulation == 0 || !simulation_ || !simulation_->shaped()) {
+        needs.fluid.ellipsoids = 0;  // these particles have no shapes
+    }
     Result<Plan> plan = makePlan(needs);
     if (!plan) {
         return plan.error();

@@ -112,6 +112,10 @@ Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
     if (Status status = s.mesh_count > 0 ? readMeshes(s, to) : Status{}; !status) {
         return status.error();
     }
+    if (s.anisotropy != 0.0F) {
+        const Anisotropy usual;
+        setup.anisotropy = Anisotropy{s.anisotropy, s.smoothing, s.lonely != 0.0F ? s.lonely : usual.lonely};
+    }
     setup.most_particles = s.emitter_count > 0 ? s.max_particles : s.particle_count;
     const std::size_t floats = std::size_t{3} * s.particle_count;
     setup.position.assign(s.position, s.position + floats);

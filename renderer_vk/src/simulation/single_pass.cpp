@@ -82,4 +82,16 @@ void SinglePass::dispatch(VkCommandBuffer commands, std::span<const std::byte> p
     device_->fn.vkCmdDispatch(commands, groups, 1, 1);
 }
 
+Status buildOnce(const Device& device, SinglePass& pass, const ComputeDesc& desc) {
+    if (pass) {
+        return {};
+    }
+    Result<SinglePass> made = SinglePass::create(device, desc);
+    if (!made) {
+        return made.error();
+    }
+    pass = std::move(made).value();
+    return {};
+}
+
 }  // namespace sluice::vk

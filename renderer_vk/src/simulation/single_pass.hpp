@@ -43,4 +43,7 @@ class SinglePass {
     VkDescriptorSet set_ = VK_NULL_HANDLE;
 };
 
+/// Builds a pass at its first use.
+[[nodiscard]] Status buildOnce(const Device& device, SinglePass& pass, const ComputeDesc& desc);
+
 }  // namespace sluice::vk

@@ -14,6 +14,7 @@
 #include "device/device.hpp"
 #include "simulation/anisotropy.hpp"
 #include "simulation/settings.hpp"
+#include "simulation/whitewater.hpp"
 #include "sluice/result.hpp"
 
 namespace sluice::vk {
@@ -57,6 +58,13 @@ struct DeviceParticles {
     bool changing = false;         ///< somebody may
 };
 
+/// Where each identity has its place when particles come and go: shaders/common/places.glsl. None: the identity is the
+/// place.
+struct PlaceBuffers {
+    VkBuffer marks = VK_NULL_HANDLE, before = VK_NULL_HANDLE;
+    [[nodiscard]] explicit operator bool() const { return marks != VK_NULL_HANDLE; }
+};
+
 /// Every neighbour list, for tests: `list[i]` holds the identities of the neighbours of the particle with identity i.
 struct NeighbourLists {
     std::vector<std::vector<std::uint32_t>> list;
@@ -95,8 +103,10 @@ class Solver {
     /// Until the next call that changes the state. Its last writes are those of a compute shader.
     [[nodiscard]] DeviceParticles onDevice() const;
     /// The ellipsoid of each particle, out of the lists of the last step (or of a search of their own where there was
-    /// none), into `to`: kEllipsoidFloats each, each particle in the place that it was given in.
-    [[nodiscard]] Status ellipsoids(const Anisotropy& how, VkBuffer to);
+    /// none), into `to`: kEllipsoidFloats each, in the place that `places` say, or its identity.
+    [[nodiscard]] Status ellipsoids(const Anisotropy& how, VkBuffer to, const PlaceBuffers& places = {});
+    /// Where the last step's water turns white, likewise: kWhitewaterFloats each. 0 before any step.
+    [[nodiscard]] Status whitewater(const Whitewater& how, VkBuffer to, const PlaceBuffers& places = {});
     /// Seconds that were simulated since setParticles.
     [[nodiscard]] double time() const;
     /// Those that live, in the order in which they were given; then the others in the order of their birth.

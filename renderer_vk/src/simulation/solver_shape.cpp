@@ -6,7 +6,6 @@
 #include <array>
 #include <cstring>
 #include <span>
-#include <utility>
 
 #include "device/commands.hpp"
 #include "device/one_shot.hpp"
@@ -18,25 +17,17 @@ namespace {
 struct AnisotropyPush {
     std::uint32_t entries, moved;
     float ratio, smoothing, lonely;
+    std::uint32_t placed;
 };
 
-constexpr std::array kAnisotropyBindings{
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,       VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
-
-/// Builds a pass at its first use.
-Status build(const Device& device, SinglePass& pass, const ComputeDesc& desc) {
-    if (pass) {
-        return {};
-    }
-    Result<SinglePass> made = SinglePass::create(device, desc);
-    if (!made) {
-        return made.error();
-    }
-    pass = std::move(made).value();
-    return {};
-}
+/// Parameters, two views of texels, then storage buffers.
+constexpr auto kAnisotropyBindings = [] {
+    std::array<VkDescriptorType, 9> types{};
+    types.fill(VK_DESCRIPTOR_TYPE_STORAGE_BUFFER);
+    types[0] = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+    types[1] = types[2] = VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER;
+    return types;
+}();
 
 }  // namespace
 
@@ -105,14 +96,14 @@ Surroundings Solver::State::surroundings() const {
             counts.living};
 }
 
-Status Solver::ellipsoids(const Anisotropy& how, VkBuffer to) {
+Status Solver::ellipsoids(const Anisotropy& how, VkBuffer to, const PlaceBuffers& places) {
     State& s = *state_;
     if (Status status = checkAnisotropy(how); !status) {
         return status;
     }
     if (Status status =
-            build(s.device, s.anisotropy,
-                  {"anisotropy", simulation_anisotropy_comp, kAnisotropyBindings, sizeof(AnisotropyPush), {}});
+            buildOnce(s.device, s.anisotropy,
+                      {"anisotropy", simulation_anisotropy_comp, kAnisotropyBindings, sizeof(AnisotropyPush), {}});
         !status) {
         return status;
     }
@@ -132,9 +123,12 @@ Status Solver::ellipsoids(const Anisotropy& how, VkBuffer to) {
         PassBinding{kAnisotropyBindings[4], around.position},
         PassBinding{kAnisotropyBindings[5], around.identity},
         PassBinding{kAnisotropyBindings[6], to},
+        // What is not read has a stand-in.
+        PassBinding{kAnisotropyBindings[7], places ? places.marks : around.identity},
+        PassBinding{kAnisotropyBindings[8], places ? places.before : around.identity},
     };
     s.anisotropy.bind(bindings);
-    const AnisotropyPush push{around.entries, around.moved, how.ratio, how.smoothing, how.lonely};
+    const AnisotropyPush push{around.entries, around.moved, how.ratio, how.smoothing, how.lonely, places ? 1U : 0U};
     Status done = runOnce(s.device, [&](VkCommandBuffer commands) {
         memoryBarrier(s.device, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,

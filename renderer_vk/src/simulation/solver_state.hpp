@@ -44,21 +44,21 @@ struct Solver::State {
     Buffer seen;                        ///< DepthField as seen.glsl reads it; unused while another one is
     VkBuffer seen_by = VK_NULL_HANDLE;  ///< that of the next step
     StepTimer timer;
-    SinglePass anisotropy;          ///< built at its first use
-    std::vector<Solid> walls;       ///< faces of the domain and solids, for bodies
-    std::vector<BodyState> bodies;  ///< at the start of the next step
-    std::vector<BodyState> moving;  ///< at the end of the step under way
-    SourceBlock sources{};          ///< with the outlets of the step under way
-    StepCounts counts;              ///< of the next step
-    std::uint32_t moved = 0;        ///< particles that the last kept step had
-    std::uint32_t planned = 0;      ///< particles that the grid was made for
-    double time = 0.0;              ///< s, since the particles were given
-    bool odd = false;               ///< In and Out have changed places
-    bool measurable = false;        ///< the sorted buffers are those of the state
-    bool searched = false;          ///< they are those of a search, which has moved nothing
-    double speed = 0.0;             ///< m/s, of the fastest particle
-    double depth = 0.0;             ///< m, of the last step; 0: not known yet, or not held to
-    StepWatch watch;                ///< of advance(); may be empty
+    SinglePass anisotropy, whitewater;  ///< built at their first use
+    std::vector<Solid> walls;           ///< faces of the domain and solids, for bodies
+    std::vector<BodyState> bodies;      ///< at the start of the next step
+    std::vector<BodyState> moving;      ///< at the end of the step under way
+    SourceBlock sources{};              ///< with the outlets of the step under way
+    StepCounts counts;                  ///< of the next step
+    std::uint32_t moved = 0;            ///< particles that the last kept step had
+    std::uint32_t planned = 0;          ///< particles that the grid was made for
+    double time = 0.0;                  ///< s, since the particles were given
+    bool odd = false;                   ///< In and Out have changed places
+    bool measurable = false;            ///< the sorted buffers are those of the state
+    bool searched = false;              ///< they are those of a search, which has moved nothing
+    double speed = 0.0;                 ///< m/s, of the fastest particle
+    double depth = 0.0;                 ///< m, of the last step; 0: not known yet, or not held to
+    StepWatch watch;                    ///< of advance(); may be empty
 
     /// A drain may have taken all, and an emitter not have given any yet.
     [[nodiscard]] bool ready() const { return counts.living > 0 || (changing() && planned > 0); }

@@ -18,6 +18,7 @@ list(APPEND SLUICE_VK_SOURCES
     src/simulation/solver_room.cpp
     src/simulation/solver_shape.cpp
     src/simulation/solver_step.cpp
+    src/simulation/solver_whitewater.cpp
     src/simulation/sources.cpp
     src/simulation/step_timer.cpp
     src/simulation/time_step.cpp

@@ -132,6 +132,13 @@ struct MovingBody {
 inline constexpr std::uint32_t kBodySphere = 0, kBodyCapsule = 1, kBodyBox = 2;
 
 /// What `sluice simulate` makes particles of. docs/simulation.md has the formulas. Frame 1 is time 0.
+/// Ellipsoids of a simulation's particles while frames are drawn.
+struct Anisotropy {
+    float ratio = 0.0F;      ///< greatest of the longest axis to the shortest; 0: particles are spheres
+    float smoothing = 0.0F;  ///< how far a centre goes to its neighbours' mean
+    float lonely = 0.5F;     ///< size of a particle without neighbours
+};
+
 struct Simulation {
     float radius = 0.02F;                ///< of a particle, metres
     Vec3 low{-1, 0, -1}, high{1, 2, 1};  ///< the box that nothing leaves
@@ -141,6 +148,7 @@ struct Simulation {
     std::uint32_t iterations = 4;
     float relaxation = 0.1F, tensile = 0.0005F, viscosity = 0.02F, vorticity = 0.0F, cfl = 0.4F, overshoot = 0.17F;
     float tension = 0.0F, adhesion = 0.0F;  ///< m/s^2
+    Anisotropy anisotropy;
     float jitter = 0.05F;                   ///< radii that a particle may be off its lattice at the start
     std::uint32_t collide_with_engine = 1;  ///< floor, pillars, crates and basins are solids too
     std::vector<FluidBox> fluid;
