@@ -136,6 +136,9 @@ void noteSimulation(Run& run) {
         run.summary.exit_code = kExitNoFluid;
     }
     run.summary.live = run.live->summary();
+    if (run.summary.live) {
+        run.summary.particles = run.summary.live->stats.particle_count;  // emitters and drains change it
+    }
 }
 
 /// An order that is wrong may leave no other trace.

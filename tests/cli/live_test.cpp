@@ -77,10 +77,11 @@ TEST_F(Live, WhatComesGoesAndMovesIsThatOfTheSimulatedFiles) {
     write("tap.json", kTap);
     ASSERT_EQ(run("simulate tap.json -o f_##.pos").code, 0);
     EXPECT_NE(read("f_01.pos").size(), read("f_04.pos").size()) << "somebody is born";
-    ASSERT_EQ(run("render tap.json --particles f_##.pos -o file_##.png").code, 0);
+    const nlohmann::json files = render("tap.json --particles f_##.pos -o file_##.png");
     const nlohmann::json live = render("tap.json -o live_##.png --validation --ledger --frames-in-flight 2");
     EXPECT_EQ(live["validation_messages"], 0);
     EXPECT_TRUE(live["ledger"]["findings"].empty()) << live["ledger"].dump(1);
+    EXPECT_EQ(live["particles"]["count"], files["particles"]["count"]);
     (void)render("tap.json -o alone_##.png --isolate");
     EXPECT_THAT(run("render tap.json -o lost_##.png --fault device-lost@2").err, HasSubstr("it begins again"));
     EXPECT_TRUE(read("lost_04.png") == read("file_02.png")) << "a new renderer gets all of it, in frame 3";
