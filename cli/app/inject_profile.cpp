@@ -61,6 +61,21 @@ void readCamera(scene::ObjectReader& camera, inject::TrackerRules& rules) {
     }
 }
 
+void addEmitters(const std::vector<scene::Emitter>& from, inject::WaterPlan& water) {
+    for (const scene::Emitter& e : from) {
+        SluiceEmitter& out = water.emitters.emplace_back();
+        out.shape = e.shape;
+        std::copy(e.centre.begin(), e.centre.end(), &out.centre[0]);
+        std::copy(e.direction.begin(), e.direction.end(), &out.direction[0]);
+        out.width = e.width;
+        out.height = e.height;
+        out.speed = e.speed;
+        out.rate = e.rate;
+        out.start = e.start;
+        out.stop = e.stop;
+    }
+}
+
 void readWater(scene::ObjectReader& from, inject::WaterPlan& water) {
     std::uint32_t place = water.in_view ? 0 : 1;
     from.choice("place", place, kPlaces);
@@ -76,6 +91,10 @@ void readWater(scene::ObjectReader& from, inject::WaterPlan& water) {
         b.numbers("high", block.high, scene::kAnyLength);
         b.numbers("velocity", block.velocity, scene::Range{-100.0, 100.0});
     });
+    std::vector<scene::Emitter> emitters;
+    from.list("emitters", emitters, [](scene::ObjectReader& e, scene::Emitter& emitter) { visitEmitter(e, emitter); });
+    addEmitters(emitters, water);
+    from.integer("max_particles", water.max_particles, 0, 1'000'000);
     if (std::all_of(water.up.begin(), water.up.end(), [](float value) { return value == 0.0F; })) {
         from.fail("up", "a direction", "[0, 0, 0]");
     }
@@ -101,6 +120,7 @@ Status readInjectedScene(const std::string& path, inject::Settings& settings) {
     for (const scene::FluidBox& box : simulation.fluid) {
         water.blocks.push_back({box.low, box.high, box.velocity});
     }
+    addEmitters(simulation.emitters, water);
     settings.look = loaded.value().fluid;
     settings.sky = loaded.value().sky;
     return {};

@@ -64,9 +64,12 @@ std::string sayFrame(const Json& context) {
         "in {} of {} frames\n",
         frame.at("switches_to_overlay").get<std::uint64_t>(), frame.at("flat_draws").get<std::uint64_t>(),
         context.at("frames_with_fluid_before_overlay").get<std::uint64_t>(), context.at("frames").get<std::uint64_t>());
-    if (const auto own = frame.at("draws_into_own_framebuffers").get<std::uint64_t>(); own > 0) {
-        text +=
-            fmt::format("  textures   {} draws into framebuffers of the program's own, which are not looked at\n", own);
+    const auto target = frame.at("scene_in_framebuffer").get<std::uint32_t>();
+    const auto others = frame.at("draws_into_other_framebuffers").get<std::uint64_t>();
+    if (target != 0 || others > 0) {
+        text += fmt::format("  scene in   {}; {} draws into others\n",
+                            target == 0 ? "the window" : fmt::format("framebuffer {} of the program's own", target),
+                            others);
     }
     for (const auto& [reason, count] : frame.at("rejected").items()) {
         text += fmt::format("  rejected   {} matrices: {}\n", count.get<std::uint64_t>(), reason);
@@ -90,9 +93,11 @@ std::string sayFluid(const Json& context) {
             fluid.at("particles").get<std::uint64_t>(), fluid.at("steps").get<std::uint64_t>(),
             fluid.at("renderers").get<std::uint64_t>(), fluid.at("device").get<std::string>(),
             fluid.at("units_per_metre").get<double>());
+        const auto each = [&](const char* key) { return millisecondsEach(s.at(key), frames); };
         text += fmt::format("  cost       per frame with fluid: capture {}, hand-off {}, fluid {}, composite {}\n",
-                            millisecondsEach(s.at("capture"), frames), millisecondsEach(s.at("hand_off"), frames),
-                            millisecondsEach(s.at("fluid"), frames), millisecondsEach(s.at("composite"), frames));
+                            each("capture"), each("hand_off"), each("fluid"), each("composite"));
+        text += fmt::format("             in all {} of the program's thread; the simulation {} beside it\n",
+                            each("whole"), each("simulation"));
     }
     return text;
 }
@@ -156,8 +161,13 @@ std::string injectReport(const std::string& folder, bool json) {
                "or by a program that is not linked dynamically.\n";
     }
     std::string text;
-    for (const Json& report : reports) {
-        text += sayProcess(report);
+    try {
+        for (const Json& report : reports) {
+            text += sayProcess(report);
+        }
+    } catch (const Json::exception& fault) {
+        // The program has run, and its exit code matters more.
+        text += fmt::format("the report cannot be read: {} (install Sluice as a whole)\n", fault.what());
     }
     return text;
 }

@@ -113,18 +113,21 @@ void visitEngine(Visitor& v, host::EngineScene& e) {
 }
 
 template <typename Visitor>
+void visitEmitter(Visitor& v, Emitter& e) {
+    v.choice("shape", e.shape, kEmitterShapes);
+    v.numbers("centre", e.centre, kAnyLength);
+    v.numbers("direction", e.direction, Range{-kWorld, kWorld});
+    v.number("width", e.width, kPositiveLength);
+    v.number("height", e.height, kPositiveLength);
+    v.number("speed", e.speed, Range{0.0, 1.0e4, true});
+    v.number("rate", e.rate, Range{0.0, 1.0e9});
+    v.number("start", e.start, Range{0.0, 1.0e6});
+    v.number("stop", e.stop, Range{0.0, 1.0e6});
+}
+
+template <typename Visitor>
 void visitSources(Visitor& v, Simulation& s) {
-    v.list("emitters", s.emitters, [](auto& o, Emitter& emitter) {
-        o.choice("shape", emitter.shape, kEmitterShapes);
-        o.numbers("centre", emitter.centre, kAnyLength);
-        o.numbers("direction", emitter.direction, Range{-kWorld, kWorld});
-        o.number("width", emitter.width, kPositiveLength);
-        o.number("height", emitter.height, kPositiveLength);
-        o.number("speed", emitter.speed, Range{0.0, 1.0e4, true});
-        o.number("rate", emitter.rate, Range{0.0, 1.0e9});
-        o.number("start", emitter.start, Range{0.0, 1.0e6});
-        o.number("stop", emitter.stop, Range{0.0, 1.0e6});
-    });
+    v.list("emitters", s.emitters, [](auto& o, Emitter& emitter) { visitEmitter(o, emitter); });
     v.list("drains", s.drains, [](auto& o, Drain& drain) {
         o.choice("shape", drain.shape, kDrainShapes);
         o.numbers("centre", drain.centre, kAnyLength);

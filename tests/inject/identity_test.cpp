@@ -56,6 +56,8 @@ TEST_F(InjectTest, FluidIsInTheFramesAndNoStateIsLeftBehind) {
         // The first swap brings the payload, so that frame has passed.
         EXPECT_THAT(with.out, HasSubstr("compared before and after: no difference"));
         EXPECT_THAT(with.out, HasSubstr("near 1, far 50;"));
+        EXPECT_THAT(with.out, Not(HasSubstr("hand-off 0.000 ms")));
+        EXPECT_THAT(with.out, Not(HasSubstr("fluid 0.000 ms")));
         EXPECT_THAT(with.out, HasSubstr("fluid before it in 2 of 4 frames")) << words;
         // The program finds its own GL error where it left it, and other pixels.
         EXPECT_THAT(with.out, HasSubstr("error 500"));

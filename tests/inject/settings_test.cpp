@@ -22,6 +22,8 @@ TEST(InjectSettings, EverySettingComesBackAsItWasPrinted) {
     settings.water.units_per_metre = 0.1F;
     settings.water.up = {0, 0, 1};
     settings.water.blocks = {{{1, 2, 3}, {4, 5, 6.125F}, {-0.1F, 0, 0}}};
+    settings.water.emitters.push_back({SLUICE_OPENING_DISC, {0, 1, 0}, {0, -1, 0}, 0.3F, 0.3F, 2, 0, 0, 5, {}});
+    settings.water.max_particles = 5000;
     SluiceFluid look{};
     look.index_of_refraction = 1.33F;
     look.filter_iterations = 3;
@@ -34,6 +36,8 @@ TEST(InjectSettings, EverySettingComesBackAsItWasPrinted) {
     EXPECT_EQ(back.rules.far_plane, settings.rules.far_plane);
     ASSERT_EQ(back.water.blocks.size(), 1U);
     EXPECT_EQ(back.water.blocks[0].velocity[0], -0.1F);
+    ASSERT_EQ(back.water.emitters.size(), 1U);
+    EXPECT_EQ(back.water.emitters[0].width, 0.3F);
     ASSERT_TRUE(back.look);
     EXPECT_EQ(std::memcmp(&*back.look, &look, sizeof(look)), 0);
     EXPECT_FALSE(back.sky);

@@ -184,19 +184,52 @@ TEST(FrameTracker, AViewThatIsNamedSoGoesWithAPureProjection) {
     EXPECT_EQ(tracker.camera()->view, translation(0, -2, -8));
 }
 
-TEST(FrameTracker, DrawsIntoFramebuffersOfTheProgramsOwnDoNotCount) {
+TEST(FrameTracker, DrawsIntoFramebuffersOfTheProgramsOwnDoNotCountBesideAScene) {
     FrameTracker tracker;
     Fixed fixed(tracker);
-    tracker.bindFramebuffer(4);
-    fixed.project(frustum(-1, 1, -1, 1, 1, 10));
-    (void)fixed.draw(100000);
-    EXPECT_FALSE(tracker.clearsDepth());
-    tracker.bindFramebuffer(0);
-    fixed.project(kLens);
-    (void)fixed.draw(10);
-    tracker.endFrame();
+    for (int frame = 0; frame < 3; ++frame) {
+        EXPECT_FALSE(tracker.bindFramebuffer(4));
+        fixed.project(frustum(-1, 1, -1, 1, 1, 10));
+        (void)fixed.draw(100000);
+        EXPECT_FALSE(tracker.clearsDepth());
+        EXPECT_FALSE(tracker.bindFramebuffer(0));
+        fixed.project(kLens);
+        (void)fixed.draw(10);
+        tracker.endFrame();
+    }
+    EXPECT_EQ(tracker.target(), 0U);
     EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 1e-3);
     EXPECT_EQ(tracker.lastFrame().foreign_draws, 1U);
+}
+
+TEST(FrameTracker, ASceneInAFramebufferOfTheProgramsOwnGetsItsFluidBeforeItIsRead) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    std::vector<bool> moments;
+    for (int frame = 0; frame < 4; ++frame) {
+        moments.clear();
+        moments.push_back(tracker.bindFramebuffer(7));  // a shadow
+        fixed.project(frustum(-1, 1, -1, 1, 1, 10));
+        moments.push_back(fixed.draw(100));
+        moments.push_back(tracker.bindFramebuffer(4));
+        fixed.project(kLens);
+        moments.push_back(fixed.draw(5000));
+        moments.push_back(tracker.bindFramebuffer(0));
+        fixed.project(ortho());
+        moments.push_back(fixed.draw(4));
+        tracker.endFrame();
+    }
+    EXPECT_EQ(tracker.target(), 4U);
+    EXPECT_EQ(moments, (std::vector<bool>{false, false, false, false, true, false}));
+    EXPECT_NEAR(tracker.camera()->lens.far_plane, 512, 5);
+    tracker.refuse(4);
+    EXPECT_EQ(tracker.target(), 0U);
+    (void)tracker.bindFramebuffer(4);
+    fixed.project(kLens);
+    (void)fixed.draw(5000);
+    (void)tracker.bindFramebuffer(0);
+    tracker.endFrame();
+    EXPECT_EQ(tracker.target(), 0U);
 }
 
 TEST(FrameTracker, WhatADisplayListRecordsDoesNotHappen) {

@@ -96,7 +96,10 @@ typedef struct SluiceOptions {
     double frame_deadline;        /* seconds that a call into another process may take in a frame before it is ended */
     void (*log)(void* user, int32_t level, const char* message); /* NULL: warnings and errors as a line on stderr */
     void* log_user;
-    const char* ledger_log; /* NULL: $SLUICE_LEDGER_LOG, else none: a file for `sluice diagnose`, of the first context */
+    const char*
+        ledger_log;   /* NULL: $SLUICE_LEDGER_LOG, else none: a file for `sluice diagnose`, of the first context */
+    uint32_t timings; /* 1: find out where the time of a frame goes, for SluiceStatistics */
+    uint32_t reserved;
 } SluiceOptions;
 /* struct_size is the caller's sizeof; it is set, and nothing beyond it is written. */
 SLUICE_EXPORT void sluice_options_defaults(SluiceOptions* options, size_t struct_size);
@@ -153,7 +156,7 @@ typedef struct SluiceWater {
     const SluiceEmitter* emitters; /* nozzles, from whose opening fluid comes */
     const SluiceDrain* drains;     /* and where it goes */
     const SluiceForceField* fields;
-    const SluiceBody* bodies;      /* that float, or go where the engine says: sluice_set_body */
+    const SluiceBody* bodies; /* that float, or go where the engine says: sluice_set_body */
     uint32_t path_point_count, mesh_count, mesh_corner_count, mesh_triangle_count;
     const SluicePathPoint* path_points; /* these four as in SluiceSimulation */
     const SluiceMesh* meshes;
@@ -202,6 +205,9 @@ typedef struct SluiceStatistics {
     double
         end_frame_seconds; /* of the calling thread in the last sluice_end_frame: capture, hand-over, wait, composite */
     char device[128];      /* that renders */
+    /* With SluiceOptions::timings, sums over all frames, else 0. The first and the last are GL's own time and come some
+     * frames late; fluid and simulation are the renderer's queue's, and run beside the engine. */
+    double capture_seconds, hand_over_seconds, fluid_seconds, simulation_seconds, composite_seconds;
 } SluiceStatistics;
 SLUICE_EXPORT SluiceResult sluice_statistics(Sluice* fluid, SluiceStatistics* statistics);
 

@@ -178,7 +178,7 @@ void uniformMatrix(std::uint32_t program, std::int32_t location, std::int32_t co
 void bindFramebuffer(std::uint32_t target, std::uint32_t framebuffer) {
     constexpr std::uint32_t kReadFramebuffer = 0x8CA8;
     if (target != kReadFramebuffer) {
-        withSession([&](Session& at) { at.tracker().bindFramebuffer(framebuffer); });
+        withSession([&](Session& at) { at.beforeBind(framebuffer); });
     }
 }
 

@@ -38,6 +38,7 @@ GlCalls loadGlCalls(const SluiceInjectShim& shim) {
     look(shim, "glGetFloatv", gl.getFloatv);
     look(shim, "glGetString", gl.getString);
     look(shim, "glGetFramebufferAttachmentParameteriv", gl.getAttachment);
+    look(shim, "glBindFramebuffer", gl.bindFramebuffer);
     look(shim, "glIsProgram", gl.isProgram);
     look(shim, "glGetProgramiv", gl.getProgramiv);
     look(shim, "glGetActiveUniform", gl.getActiveUniform);

@@ -16,6 +16,7 @@ struct GlCalls {
     void (*getFloatv)(std::uint32_t, float*) = nullptr;
     const unsigned char* (*getString)(std::uint32_t) = nullptr;
     void (*getAttachment)(std::uint32_t, std::uint32_t, std::uint32_t, std::int32_t*) = nullptr;
+    void (*bindFramebuffer)(std::uint32_t, std::uint32_t) = nullptr;
     std::uint8_t (*isProgram)(std::uint32_t) = nullptr;
     void (*getProgramiv)(std::uint32_t, std::uint32_t, std::int32_t*) = nullptr;
     void (*getActiveUniform)(std::uint32_t, std::uint32_t, std::int32_t, std::int32_t*, std::int32_t*, std::uint32_t*,

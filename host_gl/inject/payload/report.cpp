@@ -40,7 +40,8 @@ Json frameJson(const FrameTracker& tracker) {
     }
     return {{"lenses", lenses},
             {"flat_draws", frame.flat_draws},
-            {"draws_into_own_framebuffers", frame.foreign_draws},
+            {"scene_in_framebuffer", frame.target},
+            {"draws_into_other_framebuffers", frame.foreign_draws},
             {"switches_to_overlay", frame.switches},
             {"fluid_before_overlay", frame.composited_early},
             {"rejected", frame.rejected}};
@@ -59,6 +60,7 @@ Json waterJson(const WaterReport& water) {
              {{"capture", water.capture_s},
               {"hand_off", water.hand_off_s},
               {"fluid", water.fluid_s},
+              {"simulation", water.simulation_s},
               {"composite", water.composite_s},
               {"whole", water.whole_s},
               {"begin", water.begin_s}}}};

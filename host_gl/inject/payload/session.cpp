@@ -19,9 +19,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::uint64_t kAuditedFrames = 8;   // with fluid; a full snapshot asks OpenGL thousands of questions
-constexpr std::uint64_t kMostFailures = 120;  // frames in a row that may fail before a context is left alone
-constexpr std::uint32_t kMostPrograms = 512;  // names that are looked at once, when the payload comes late
+constexpr std::uint64_t kAuditedFrames = 8;          // with fluid; a full snapshot asks OpenGL thousands of questions
+constexpr std::uint64_t kMostFailures = 120;         // frames in a row that may fail before a context is left alone
+constexpr std::uint64_t kMostFailuresElsewhere = 3;  // before a framebuffer of the program's own is
+constexpr std::uint32_t kMostPrograms = 512;         // names that are looked at once, when the payload comes late
 constexpr std::size_t kMostLeaks = 64;
 
 thread_local std::uint32_t kept_error = 0;
@@ -79,7 +80,7 @@ Session::Session(Payload& payload, const CurrentContext& current)
     tracker_.useProgram(static_cast<std::uint32_t>(program));
     GLint framebuffer = 0;
     payload.gl.getIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
-    tracker_.bindFramebuffer(static_cast<std::uint32_t>(framebuffer));
+    (void)tracker_.bindFramebuffer(static_cast<std::uint32_t>(framebuffer));
     scanPrograms();
     while (payload.gl.getError() != GL_NO_ERROR) {  // what an old context does not know of the above
     }
@@ -186,6 +187,28 @@ void Session::beforeClear(std::uint32_t mask) {
     }
 }
 
+void Session::beforeBind(std::uint32_t framebuffer) {
+    if (tracker_.bindFramebuffer(framebuffer) && !ended_) {
+        ++early_;
+        composeNow();
+    }
+}
+
+/// Into the default framebuffer, whatever is bound. A scene in another one has been read by now.
+void Session::composeAtSwap() {
+    const std::uint32_t bound = tracker_.framebuffer();
+    if (tracker_.target() != 0) {
+        return;
+    }
+    if (bound != 0 && payload_.gl.bindFramebuffer != nullptr) {
+        payload_.gl.bindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    }
+    composeNow();
+    if (bound != 0 && payload_.gl.bindFramebuffer != nullptr) {
+        payload_.gl.bindFramebuffer(GL_DRAW_FRAMEBUFFER, bound);
+    }
+}
+
 void Session::swap(const CurrentContext& current, const char* route) {
     if (ended_) {
         return;
@@ -201,7 +224,7 @@ void Session::swap(const CurrentContext& current, const char* route) {
         size_ = size;
     }
     if (!composed_) {
-        composeNow();
+        composeAtSwap();
     }
     tracker_.endFrame();
     composed_ = false;
@@ -243,6 +266,10 @@ void Session::composeAudited(const FoundCamera& camera) {
         }
     }
     failed_in_a_row_ = status ? 0 : failed_in_a_row_ + 1;
+    if (water_ != nullptr && tracker_.target() != 0 && failed_in_a_row_ >= kMostFailuresElsewhere) {
+        tracker_.refuse(tracker_.target());
+        failed_in_a_row_ = 0;
+    }
     if (!status && (water_ == nullptr || failed_in_a_row_ > kMostFailures)) {
         giveUp(status.error().message());
     }
@@ -266,6 +293,13 @@ Status Session::compose(const FoundCamera& camera) {
 /// The median distance of what the eye sees, from a grid of depths of the frame; 0 if it sees nothing.
 double Session::seenDistance(const FoundCamera& camera) const {
     constexpr int kAcross = 9;
+    GLint read = 0;
+    GLint buffer = 0;
+    payload_.gl.getIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
+    payload_.gl.getIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer);
+    if (buffer != 0 || static_cast<std::uint32_t>(read) != tracker_.target()) {
+        return 0.0;  // what is read would go elsewhere, or come from there
+    }
     std::vector<double> distances;
     for (int y = 0; y < kAcross; ++y) {
         for (int x = 0; x < kAcross; ++x) {
@@ -280,6 +314,8 @@ double Session::seenDistance(const FoundCamera& camera) const {
                 distances.push_back(n * f / (f - double{depth} * (f - n)));
             }
         }
+    }
+    while (payload_.gl.getError() != GL_NO_ERROR) {  // a framebuffer of several samples, for one
     }
     if (distances.empty()) {
         return 0.0;

@@ -44,6 +44,7 @@ class Session {
     /// Before a draw: gives the tracker what it wants, and the fluid its moment.
     void beforeDraw(std::uint32_t vertices);
     void beforeClear(std::uint32_t mask);
+    void beforeBind(std::uint32_t framebuffer);
     void uniform(std::uint32_t program, std::int32_t location, const Matrix& matrix);
     void matrixPushed();
     /// The context is about to be destroyed.
@@ -72,6 +73,7 @@ class Session {
 
   private:
     void composeNow();
+    void composeAtSwap();
     void composeAudited(const FoundCamera& camera);
     [[nodiscard]] Status compose(const FoundCamera& camera);
     void scanPrograms();

@@ -85,6 +85,14 @@ void readWater(std::string_view key, Words& line, WaterPlan& water) {
         line.read(block.low);
         line.read(block.high);
         line.read(block.velocity);
+    } else if (key == "water.emitter") {
+        std::optional<SluiceEmitter> emitter;
+        line.readWords(emitter);
+        if (emitter) {
+            water.emitters.push_back(*emitter);
+        }
+    } else if (key == "water.most") {
+        line.read(water.max_particles);
     } else if (key == "water.world") {
         water.in_view = false;
     } else if (key == "water.units") {
@@ -160,6 +168,10 @@ std::string printWater(const WaterPlan& water) {
         text += fmt::format("water.block {} {} {}\n", fmt::join(block.low, " "), fmt::join(block.high, " "),
                             fmt::join(block.velocity, " "));
     }
+    for (const SluiceEmitter& emitter : water.emitters) {
+        text += fmt::format("water.emitter {}\n", words(emitter));
+    }
+    text += water.max_particles == 0 ? "" : fmt::format("water.most {}\n", water.max_particles);
     return text;
 }
 

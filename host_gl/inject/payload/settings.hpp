@@ -31,7 +31,9 @@ struct WaterPlan {
     Triple gravity{0, -9.81F, 0};
     std::uint32_t iterations = 4;
     float viscosity = 0.02F, vorticity = 0;
-    std::vector<WaterBlock> blocks;  ///< none: a column at the left wall
+    std::vector<WaterBlock> blocks;  ///< none, and no emitter: a column at the left wall
+    std::vector<SluiceEmitter> emitters;
+    std::uint32_t max_particles = 0;  ///< at which emitters stop; 0: the library's choice
 };
 
 struct Settings {

@@ -97,6 +97,7 @@ class LibraryWater final : public Water {
         options.process = settings.same_process ? SLUICE_PROCESS_SAME : SLUICE_PROCESS_OWN;
         options.plugin = settings.plugin.empty() ? nullptr : settings.plugin.c_str();
         options.log = logLine;
+        options.timings = settings.audit ? 1 : 0;
         if (const SluiceResult result = api_.create(&options, &fluid_); result != SLUICE_OK) {
             return failure(result, nullptr);
         }
@@ -148,6 +149,11 @@ class LibraryWater final : public Water {
             report_.particles = statistics.particles;
             report_.renderers = statistics.renderers;
             report_.device = &statistics.device[0];
+            report_.capture_s = statistics.capture_seconds;
+            report_.hand_off_s = statistics.hand_over_seconds;
+            report_.fluid_s = statistics.fluid_seconds;
+            report_.simulation_s = statistics.simulation_seconds;
+            report_.composite_s = statistics.composite_seconds;
         }
         report_.last_error = last_error_;
         report_.units_per_metre = placement_.unitsPerMetre();
@@ -165,7 +171,7 @@ class LibraryWater final : public Water {
         api_.waterDefaults(&water, sizeof(water));
         std::vector<SluiceBlock> blocks;
         std::vector<WaterBlock> wanted = plan.blocks;
-        if (wanted.empty()) {
+        if (wanted.empty() && plan.emitters.empty()) {
             wanted.push_back(columnOf(plan));
         }
         for (const WaterBlock& block : wanted) {
@@ -183,6 +189,9 @@ class LibraryWater final : public Water {
         water.vorticity = plan.vorticity;
         water.blocks = blocks.data();
         water.block_count = static_cast<std::uint32_t>(blocks.size());
+        water.emitters = plan.emitters.data();
+        water.emitter_count = static_cast<std::uint32_t>(plan.emitters.size());
+        water.max_particles = plan.max_particles;
         const SluiceResult result = api_.setWater(fluid_, &water);
         return result == SLUICE_OK ? Status{} : failure(result, fluid_);
     }

@@ -11,13 +11,14 @@
 
 namespace sluice::inject {
 
-/// What it cost, and how it fares; seconds are of the calling thread, in all frames with fluid.
+/// What it cost, in all frames, as SluiceStatistics has it, and how it fares. whole and begin are of the calling
+/// thread.
 struct WaterReport {
     std::uint64_t frames = 0, frames_without = 0, steps = 0;
     std::uint32_t particles = 0, renderers = 0;
     std::string device, last_error;
     double units_per_metre = 0;
-    double capture_s = 0, hand_off_s = 0, fluid_s = 0, composite_s = 0, whole_s = 0, begin_s = 0;
+    double capture_s = 0, hand_off_s = 0, fluid_s = 0, simulation_s = 0, composite_s = 0, whole_s = 0, begin_s = 0;
 };
 
 /// Every call with the context current that it was made in; but destruction finds out for itself whether it still is.

@@ -77,10 +77,10 @@ AFTER(glProgramUniformMatrix4fv,
       (uint32_t program, int32_t location, int32_t count, uint8_t transpose, const float* value),
       (program, location, count, transpose, value), uniform_matrix(program, location, count, transpose, value))
 
-AFTER(glBindFramebuffer, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
-      bind_framebuffer(target, framebuffer))
-AFTER(glBindFramebufferEXT, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
-      bind_framebuffer(target, framebuffer))
+BEFORE(glBindFramebuffer, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
+       bind_framebuffer(target, framebuffer))
+BEFORE(glBindFramebufferEXT, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
+       bind_framebuffer(target, framebuffer))
 
 AFTER(glNewList, (uint32_t list, uint32_t mode), (list, mode), list_mode(mode))
 AFTER(glEndList, (void), (), list_mode(0))

@@ -37,7 +37,7 @@ void FrameTracker::compileList(bool compiling) {
 }
 
 bool FrameTracker::wantsPushedView() const {
-    return mode_model_view_ && fixed_dirty_ && !compiling_ && framebuffer_ == 0;
+    return mode_model_view_ && fixed_dirty_ && !compiling_ && framebuffer_ == target_;
 }
 
 void FrameTracker::pushedView(const Matrix& model_view) {
@@ -53,8 +53,7 @@ const FrameTracker::ProgramCamera* FrameTracker::programCamera() const {
 }
 
 bool FrameTracker::wantsMatrices() const {
-    return fixed_dirty_ && !compiling_ && framebuffer_ == 0 && rules_.route != CameraRoute::Uniforms &&
-           programCamera() == nullptr;
+    return fixed_dirty_ && !compiling_ && rules_.route != CameraRoute::Uniforms && programCamera() == nullptr;
 }
 
 void FrameTracker::fixedMatrices(const Matrix& projection, const Matrix& model_view) {
@@ -148,15 +147,19 @@ bool FrameTracker::draw(std::uint32_t vertices) {
     if (compiling_) {
         return false;
     }
-    if (framebuffer_ != 0) {
-        ++now_.foreign_draws;
-        return false;
-    }
     const std::uint64_t count = vertices == 0 ? kUnknownVertices : vertices;
     const ProgramCamera* program = programCamera();
     const bool may_use_fixed = program == nullptr && rules_.route != CameraRoute::Uniforms && fixed_;
     const Reading* reading = program != nullptr ? &*program->reading : may_use_fixed ? &*fixed_ : nullptr;
-    if (reading == nullptr || reading->shape != Shape::Perspective) {
+    const bool perspective = reading != nullptr && reading->shape == Shape::Perspective;
+    if (framebuffer_ != target_) {
+        ++now_.foreign_draws;
+        if (perspective && refused_.count(framebuffer_) == 0) {
+            elsewhere_[framebuffer_] += count;
+        }
+        return false;
+    }
+    if (!perspective) {
         ++now_.flat_draws;
         return boundary();
     }
@@ -181,7 +184,43 @@ bool FrameTracker::draw(std::uint32_t vertices) {
 }
 
 bool FrameTracker::clearsDepth() {
-    return framebuffer_ == 0 && !compiling_ && boundary();
+    return framebuffer_ == target_ && !compiling_ && boundary();
+}
+
+bool FrameTracker::bindFramebuffer(std::uint32_t framebuffer) {
+    // A scene in the default framebuffer may go on after a look elsewhere; one in a framebuffer of the program's own is
+    // about to be read.
+    const bool leaves = framebuffer_ != 0 && framebuffer_ == target_ && framebuffer != target_;
+    const bool now = leaves && boundary();
+    framebuffer_ = framebuffer;
+    return now;
+}
+
+void FrameTracker::refuse(std::uint32_t framebuffer) {
+    refused_.insert(framebuffer);
+    if (target_ == framebuffer) {
+        target_ = 0;
+        learned_.reset();
+    }
+}
+
+/// The default framebuffer if any scene is drawn there.
+void FrameTracker::chooseTarget() {
+    const bool here = mainGroup() != nullptr;
+    const bool in_default = target_ == 0 ? here : elsewhere_.count(0) != 0;
+    std::uint32_t next = target_;
+    if (in_default) {
+        next = 0;
+    } else if (!here && !elsewhere_.empty()) {
+        next = std::max_element(elsewhere_.begin(), elsewhere_.end(), [](const auto& a, const auto& b) {
+                   return a.second < b.second;
+               })->first;
+    }
+    if (next != target_) {
+        target_ = next;
+        learned_.reset();
+    }
+    elsewhere_.clear();
 }
 
 bool FrameTracker::boundary() {
@@ -248,6 +287,8 @@ void FrameTracker::endFrame() {
     for (const Group& group : groups_) {
         now_.lenses.push_back({group.reading.lens, group.camera.source, group.vertices, group.draws, group.matrices});
     }
+    now_.target = target_;
+    chooseTarget();
     last_ = std::exchange(now_, FrameSummary{});
     now_.rejected = last_.rejected;
     groups_.clear();

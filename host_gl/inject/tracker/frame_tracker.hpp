@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -51,7 +52,8 @@ struct SeenLens {
 
 struct FrameSummary {
     std::vector<SeenLens> lenses;
-    std::uint32_t flat_draws = 0, foreign_draws = 0;  ///< without perspective; into framebuffers of the program's own
+    std::uint32_t flat_draws = 0, foreign_draws = 0;  ///< without perspective; into framebuffers other than the scene's
+    std::uint32_t target = 0;                         ///< the scene's framebuffer
     std::uint32_t switches = 0;                       ///< from perspective to an overlay
     bool composited_early = false;
     std::map<std::string, std::uint64_t> rejected;  ///< why matrices were no camera, since the beginning
@@ -76,7 +78,14 @@ class FrameTracker {
     void uniform(std::uint32_t program, const Matrix& matrix, UniformName name);
     [[nodiscard]] std::uint32_t program() const { return program_; }
 
-    void bindFramebuffer(std::uint32_t framebuffer) { framebuffer_ = framebuffer; }
+    /// Before the binding changes. True: the framebuffer that is bound now holds the complete scene, and the fluid
+    /// belongs into it.
+    [[nodiscard]] bool bindFramebuffer(std::uint32_t framebuffer);
+    [[nodiscard]] std::uint32_t framebuffer() const { return framebuffer_; }
+    /// Where the scene is drawn: 0, the default framebuffer, or one of the program's own if it draws no scene there.
+    [[nodiscard]] std::uint32_t target() const { return target_; }
+    /// The fluid cannot be drawn into that one: a shadow map, or a format that nobody knows.
+    void refuse(std::uint32_t framebuffer);
     void compileList(bool compiling);
 
     /// True: the scene is complete, so that the fluid belongs before this draw.
@@ -113,6 +122,7 @@ class FrameTracker {
     [[nodiscard]] const Group* mainGroup() const;
     [[nodiscard]] FoundCamera describe(const Group& group) const;
     void reject(const Reading& reading);
+    void chooseTarget();
 
     TrackerRules rules_;
     bool mode_projection_ = false, mode_model_view_ = true;
@@ -121,7 +131,10 @@ class FrameTracker {
     Matrix model_view_ = kIdentity;
     std::optional<Matrix> pushed_;
     std::uint64_t fixed_version_ = 0;
-    std::uint32_t program_ = 0, framebuffer_ = 0;
+    std::uint32_t program_ = 0, framebuffer_ = 0, target_ = 0;
+    std::map<std::uint32_t, std::uint64_t>
+        elsewhere_;  ///< vertices in perspective, by framebuffer other than the target
+    std::set<std::uint32_t> refused_;
     std::map<std::uint32_t, ProgramCamera> programs_;
 
     std::vector<Group> groups_;

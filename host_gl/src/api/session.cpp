@@ -182,6 +182,7 @@ Status Session::start(const CurrentContext& context, const Extent& extent) {
     }
     FluidHostConfig config;
     config.ledger = ledger_.get();
+    config.trace = trace_.get();
     config.width = extent[0];
     config.height = extent[1];
     config.timeline = timeline_;

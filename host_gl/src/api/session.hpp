@@ -12,6 +12,7 @@
 #include "api/current_context.hpp"
 #include "api/log_sink.hpp"
 #include "api/target.hpp"
+#include "api/timings.hpp"
 #include "frame/kept_scene.hpp"
 #include "sluice/host_gl/fluid_host.hpp"
 #include "sluice/ledger/live.hpp"
@@ -55,7 +56,8 @@ class Session {
           extent_{options.width, options.height},
           follows_drawable_(options.width == 0 || options.height == 0),
           timeline_(static_cast<SluiceTimelineKind>(options.timeline)),
-          ledger_log_(ledgerLog(options.ledger_log)) {}
+          ledger_log_(ledgerLog(options.ledger_log)),
+          trace_(options.timings != 0 ? std::make_unique<Trace>(kTraceCapacity) : nullptr) {}
 
     /// There is fluid to be drawn.
     [[nodiscard]] bool active() const { return enabled_ && has_water_; }
@@ -70,6 +72,8 @@ class Session {
     [[nodiscard]] Status draw();
     [[nodiscard]] static std::string ledgerLog(const char* asked);
     [[nodiscard]] Status startLedger();
+
+    static constexpr std::size_t kTraceCapacity = 4096;  // events of a frame, and of the simulation beside it
 
     PluginLibrary library_;
     LogSink log_;
@@ -89,6 +93,7 @@ class Session {
     std::uint32_t witness_ = 0;                   ///< a GL object by which the context is known again
     std::string ledger_log_;                      ///< still to be begun; empty: none, or it has been
     std::unique_ptr<ledger::LiveLedger> ledger_;  ///< outlives the host
+    std::unique_ptr<Trace> trace_;                ///< likewise; only with SluiceOptions::timings
     std::unique_ptr<FluidHost> host_;
     std::uint32_t contexts_ = 0;
     CurrentContext tried_in_;              ///< the last start
@@ -103,6 +108,7 @@ class Session {
     bool in_frame_ = false;
     std::uint64_t frames_ = 0, frames_without_ = 0;
     double end_frame_seconds_ = 0.0;
+    Timings timings_;
     std::string last_error_, last_told_;
 };
 

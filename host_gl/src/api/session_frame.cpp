@@ -29,6 +29,11 @@ Status Session::endFrame() {
     Status status = draw();
     const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
     end_frame_seconds_ = took.count();
+    if (trace_ != nullptr) {
+        for (const TraceRecord& event : trace_->drain()) {
+            addTo(timings_, event);
+        }
+    }
     ++(status ? frames_ : frames_without_);
     if (status) {
         last_told_.clear();
@@ -176,6 +181,11 @@ Result<SluiceStatistics> Session::statistics() {
     out.contexts = contexts_;
     out.particles = has_water_ ? particles_ : 0;
     out.end_frame_seconds = end_frame_seconds_;
+    out.capture_seconds = timings_.capture;
+    out.hand_over_seconds = timings_.hand_over;
+    out.fluid_seconds = timings_.fluid;
+    out.simulation_seconds = timings_.simulation;
+    out.composite_seconds = timings_.composite;
     if (!reachable()) {
         return out;
     }
