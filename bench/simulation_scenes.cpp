@@ -122,7 +122,7 @@ std::unique_ptr<vk::Device> makeDevice() {
 
 std::unique_ptr<vk::Solver> makeSolver(const vk::Device& device, const Scene& scene) {
     auto solver = take(vk::Solver::create(device, scene.settings));
-    check(solver->setParticles(scene.positions, {}));
+    check(solver->setParticles(scene.positions, {}, scene.fluids));
     return solver;
 }
 

@@ -18,6 +18,7 @@ namespace sluice::bench {
 
 struct Scene {
     vk::SimulationSettings settings;
+    std::vector<std::uint32_t> fluids{};  ///< of each particle; may be empty
     std::vector<float> positions;
     double base = 0.0;  ///< metres, of the water at first; it is twice as high
 

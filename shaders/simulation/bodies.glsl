@@ -23,9 +23,15 @@ void addWhole(uint at, float value) {
     atomicAdd(push_sum[at + 1u], uint(whole >> 12) + (before + low < before ? 1u << 20 : 0u));
 }
 
+// Of the particle that this invocation moves; set where FLUIDS.
+float heft = 1.0;
+
 // Body k has moved a particle at x by `push`, m.
 void addPush(uint k, vec3 x, vec3 push) {
-    const vec3 parts = push * (4194304.0 / p.high.w);
+    vec3 parts = push * (4194304.0 / p.high.w);
+    if (FLUIDS == 1u) {
+        parts *= heft;
+    }
     const vec3 moment = cross((x - b.body[k].centre.xyz) * b.body[k].centre.w, parts);
     const uint first = 12u * k;
     addWhole(first, parts.x);

@@ -24,7 +24,7 @@ void main() {
     const uint i = p.count.x + k;
     const bool taken = blocked[k] != 0u;
     position[i] = vec4(births[k].position.xyz, taken ? 1.0 : 0.0);
-    velocity[i] = vec4(births[k].velocity.xyz, 0);
+    velocity[i] = births[k].velocity;
     identity[i] = p.change.z + k;
     if (taken) {
         atomicAdd(stillborn, 1u);

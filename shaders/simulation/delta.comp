@@ -13,7 +13,7 @@ layout(set = 0, binding = 1) uniform textureBuffer pushed;
 layout(set = 0, binding = 2) uniform utextureBuffer list;
 layout(std430, set = 0, binding = 3) readonly buffer ListCount { uint list_count[]; };
 layout(std430, set = 0, binding = 4) readonly buffer Walls { vec4 walls_of[]; };
-layout(std430, set = 0, binding = 5) writeonly buffer Sorted { vec4 sorted[]; };
+layout(std430, set = 0, binding = 5) buffer Sorted { vec4 sorted[]; };
 layout(std430, set = 0, binding = 10) readonly buffer Before { vec4 before[]; };  // read only if SEEN
 
 void main() {
@@ -39,8 +39,14 @@ void main() {
     }
     const vec4 walls = walls_of[i];
     delta += self.w * walls.xyz;
-    if (BODIES == 1u && self.w < 0.0) {
+    if (BODIES == 1u && self.w < 0.0) {  // of volumes: `heft` is still 1
         addPressure(self.xyz, walls.w, self.w);
     }
-    sorted[i] = vec4(collided(self.xyz + delta, SEEN == 1u ? before[i].xyz : self.xyz), 0);
+    float light = 0.0;
+    if (FLUIDS == 1u) {
+        light = sorted[i].w;
+        heft = 1.0 / light;
+        delta *= light;
+    }
+    sorted[i] = vec4(collided(self.xyz + delta, SEEN == 1u ? before[i].xyz : self.xyz), light);
 }

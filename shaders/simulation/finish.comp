@@ -24,11 +24,14 @@ layout(std430, set = 0, binding = 9) buffer Status { uint faults, most_neighbour
 
 float pow3(float x) { return x * x * x; }
 
+uint own = 0u;  // fluid of this particle
+
 // Of a wall `d` away, m/s^2.
 float attraction(float d) {
     const float at = clamp(d / p.high.w, 0.0, 1.0) * 16.0;
     const uint k = min(uint(at), 15u);
-    return p.surface.z * mix(p.adhesion[k / 4u][k % 4u], p.adhesion[(k + 1u) / 4u][(k + 1u) % 4u], at - float(k));
+    const float strength = FLUIDS == 1u ? p.surface.z * p.kind[own].b.x : p.surface.z;
+    return strength * mix(p.adhesion[k / 4u][k % 4u], p.adhesion[(k + 1u) / 4u][(k + 1u) % 4u], at - float(k));
 }
 
 // The cohesion kernel over its greatest value at h/2, 32 / (pi h^9) h^6 / 64 (Akinci et al. 2013, eq. 2). Attracts beyond about a
@@ -75,30 +78,55 @@ void main() {
     vec3 drift = vec3(0);
     vec3 eta = vec3(0);
     vec3 tension = vec3(0);
+    vec4 mine_of = vec4(0);
+    float rub = p.fluid.x;
+    if (FLUIDS == 1u) {
+        own = uint(before[i].w);
+        mine_of = p.kind[own].a;
+        rub = mine_of.z;
+        heft = mine_of.x;
+    }
     const vec4 mine = TENSION == 1u ? texelFetch(surface, int(i)) : vec4(0);
     uint at = i;
     for (uint k = 0u; k < number; ++k, at += p.count.y) {
         const uint j = texelFetch(list, int(at)).x;
         const vec4 d = between(x, texelFetch(sorted, int(j)).xyz, i, j);
         const float bracket = max(h * h - d.w * d.w, 0.0);
-        drift += (texelFetch(moving, int(j)).xyz - v) * (bracket * bracket * bracket);
+        const vec4 there = texelFetch(moving, int(j));
+        // What one gives the other takes: of the mean, the lighter gets more.
+        float share = 1.0;
+        float pull = 1.0;
+        if (FLUIDS == 1u) {
+            const vec4 theirs = p.kind[uint(there.w)].a;
+            share = 2.0 * mine_of.y / (mine_of.y + theirs.y);
+            pull = share * sqrt(mine_of.w * theirs.w);
+            share *= 0.5 * (mine_of.z + theirs.z);
+            drift += (there.xyz - v) * (bracket * bracket * bracket * share);
+        } else {
+            drift += (there.xyz - v) * (bracket * bracket * bracket);
+        }
         if (TENSION == 1u) {
             const vec4 other = texelFetch(surface, int(j));
-            tension -= (d.xyz * (p.surface.x * cohesion(d.w / h) / d.w) + (mine.xyz - other.xyz) * p.surface.y) *
-                       (2.0 / (mine.w + other.w));
+            const vec3 force = (d.xyz * (p.surface.x * cohesion(d.w / h) / d.w) + (mine.xyz - other.xyz) * p.surface.y) *
+                               (2.0 / (mine.w + other.w));
+            if (FLUIDS == 1u) {
+                tension -= force * pull;
+            } else {
+                tension -= force;
+            }
         }
         if (CONFINE == 1u) {
             const float near = max(h - d.w, 0.0);
             eta += d.xyz * (texelFetch(curl_of, int(j)).w * p.kernel.y * near * near / d.w);
         }
     }
-    vec3 result = v + p.fluid.x * p.kernel.x * drift;
+    vec3 result = v + (FLUIDS == 1u ? p.kernel.x * drift : p.fluid.x * p.kernel.x * drift);
     if (BODIES == 1u) {  // the fluid at rest that stands for the body moves with it
         for (uint k = p.change.w; k < p.count.w; ++k) {
             const float q = max(distanceTo(k, x).w, 0.0) / h;
             if (q < 1.0) {
                 const uint body = k - p.change.w;
-                const vec3 drag = (bodyVelocity(body, x) - v) * (p.fluid.x * p.search.y * halfSpace(q));
+                const vec3 drag = (bodyVelocity(body, x) - v) * (rub * p.search.y * halfSpace(q));
                 addPush(body, x, drag * p.gravity.w);
                 result += drag;
             }
@@ -116,7 +144,7 @@ void main() {
         }
     }
     position[i] = vec4(x, 0);
-    velocity[i] = vec4(result, 0);
+    velocity[i] = vec4(result, before[i].w);
     if (isBad(x) || isBad(result)) {
         atomicOr(faults, FAULT_NOT_FINITE);
     }

@@ -21,7 +21,8 @@ void main() {
     if (i >= p.count.x) {
         return;
     }
-    const vec3 x = texelFetch(sorted, int(i)).xyz;
+    const vec4 self = texelFetch(sorted, int(i));
+    const vec3 x = self.xyz;
     const float h = p.high.w;
     const uint number = list_count[i];
     float sum = h * h * h * h * h * h;
@@ -30,12 +31,17 @@ void main() {
     uint at = i;
     for (uint k = 0u; k < number; ++k, at += p.count.y) {
         const uint j = texelFetch(list, int(at)).x;
-        const vec4 d = between(x, texelFetch(sorted, int(j)).xyz, i, j);
+        const vec4 other = texelFetch(sorted, int(j));
+        const vec4 d = between(x, other.xyz, i, j);
         const float bracket = max(h * h - d.w * d.w, 0.0);
         sum += bracket * bracket * bracket;
         const float near = max(h - d.w, 0.0);
         const float slope = p.kernel.y * near * near;
-        squares += slope * slope;
+        if (FLUIDS == 1u) {
+            squares += other.w * slope * slope;
+        } else {
+            squares += slope * slope;
+        }
         gradient += d.xyz * (slope / d.w);
     }
     const vec4 walls = wallsAt(x);
@@ -45,6 +51,10 @@ void main() {
         pushed[i] = vec4(x, density);
         return;
     }
-    pushed[i] = vec4(x, -max(density - 1.0, 0.0) / (squares + dot(gradient, gradient) + p.kernel.z));
+    float stiff = squares + dot(gradient, gradient) + p.kernel.z;
+    if (FLUIDS == 1u) {  // who is lighter is moved farther by the same push
+        stiff = squares + self.w * (dot(gradient, gradient) + p.kernel.z);
+    }
+    pushed[i] = vec4(x, -max(density - 1.0, 0.0) / stiff);
     walls_of[i] = walls;
 }

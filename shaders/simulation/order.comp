@@ -35,7 +35,8 @@ void main() {
     for (uint k = first; k < last; ++k) {
         place += bucket[k] < mine ? 1u : 0u;
     }
-    sorted[place] = vec4(predicted[i].xyz, 0);
-    before[place] = vec4(SEEN == 1u ? rescuedFromSeen(position[i].xyz) : position[i].xyz, position[i].w);
+    const vec4 moved = predicted[i];
+    sorted[place] = vec4(moved.xyz, FLUIDS == 1u ? p.kind[uint(moved.w)].a.y : 0.0);
+    before[place] = vec4(SEEN == 1u ? rescuedFromSeen(position[i].xyz) : position[i].xyz, moved.w);
     identity_out[place] = mine;
 }

@@ -46,8 +46,11 @@ void main() {
     if (isBad(moved)) {
         atomicOr(faults, FAULT_NOT_FINITE);
     }
+    if (FLUIDS == 1u && BODIES == 1u) {
+        heft = p.kind[uint(velocity[i].w)].a.x;
+    }
     const vec3 x = collided(moved, start);
-    predicted[i] = vec4(x, 0);
+    predicted[i] = vec4(x, velocity[i].w);
     const ivec3 cell = cellOf(x);
     const uint index = rowOf(cell.y, cell.z) + uint(cell.x);
     arrival[i] = uvec2(index, atomicAdd(cells[index], 1u));

@@ -5,6 +5,14 @@
 #define SLUICE_SIMULATION_GLSL
 
 const uint MAX_SOLIDS = 80u;  // kMaxSolids + kMaxBodies
+// 1: several fluids. The last of a velocity, of `before` and of `moving` is then the number of the particle's fluid, and that of
+// `sorted` the inverse of its density; else all are 0.
+layout(constant_id = 5) const uint FLUIDS = 0u;
+
+struct Fluid {
+    vec4 a;  // x = density, y = 1 / density, z = XSPH, w = tension
+    vec4 b;  // x = adhesion
+};
 
 struct Solid {
     vec4 a;  // plane: unit normal; others: centre or first end; w = kind
@@ -27,6 +35,7 @@ layout(std140, set = 0, binding = 0) uniform Parameters {
     vec4 surface;    // x = cohesion, y = curvature, z = adhesion, m/s^2; w = 1: adhesion is on
     vec4 adhesion[5];  // of a half-space, at distances of 0, 1/16, ... 1 support; the last three are 0
     Solid solid[MAX_SOLIDS];
+    Fluid kind[8];   // where FLUIDS
 } p;
 
 // Faults, reported by the host: simulation/status.hpp.

@@ -12,6 +12,6 @@ layout(std430, set = 0, binding = 3) writeonly buffer Moving { vec4 moving[]; };
 void main() {
     const uint i = gl_GlobalInvocationID.x;
     if (i < p.count.x) {
-        moving[i] = vec4((sorted[i].xyz - before[i].xyz) * p.fluid.w, 0);
+        moving[i] = vec4((sorted[i].xyz - before[i].xyz) * p.fluid.w, before[i].w);
     }
 }

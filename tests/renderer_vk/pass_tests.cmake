@@ -21,6 +21,7 @@ sluice_add_test(renderer_vk_simulation_test OPTIMISED
     reference/simulation_reference.cpp
     simulation_bodies_test.cpp
     simulation_depth_test.cpp
+    simulation_fluids_test.cpp
     simulation_mesh_test.cpp
     simulation_physics_test.cpp
     simulation_seen_test.cpp

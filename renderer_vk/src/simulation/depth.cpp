@@ -46,7 +46,9 @@ double longestAtDepth(const SimulationSettings& settings, double depth) {
         return std::numeric_limits<double>::infinity();
     }
     const double d = spacing(settings);
-    return d * std::sqrt(double{settings.overshoot} * settings.iterations / (gravityOf(settings) * depth));
+    // Light fluid below heavy bears the weight of so much more of its own.
+    const double heaviest = depth * densityRatio(settings.fluids);
+    return d * std::sqrt(double{settings.overshoot} * settings.iterations / (gravityOf(settings) * heaviest));
 }
 
 }  // namespace sluice::vk

@@ -51,6 +51,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
     const std::uint32_t bodies = features.bodies ? 1 : 0;
     const std::uint32_t meshes = features.meshes ? 1 : 0;
     const std::uint32_t seen = features.seen ? 1 : 0;
+    const std::uint32_t fluids = features.fluids ? 1 : 0;
     const std::vector<Use> finish{texels(Sorted), texels(Moving), texels(Curl),  texels(List), {ListCount},
                                   {Before},       {PositionOut},  {VelocityOut}, {Status},     uniform(Bodies),
                                   {Pushes},       texels(Walls),  {Meshes},      {Seen}};
@@ -68,7 +69,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
           {Pushes},
           {Meshes},
           {Seen}},
-         {features.fields ? 1U : 0U, bodies, 0, meshes, seen}},
+         {features.fields ? 1U : 0U, bodies, 0, meshes, seen, fluids}},
         {Kernel::ScanSums, simulation_scan_sums_comp, {{Cells}, {Sums}}},
         {Kernel::ScanBlocks, simulation_scan_blocks_comp, {{Sums}}},
         {Kernel::ScanCells, simulation_scan_cells_comp, {{Cells}, {Sums}}},
@@ -87,12 +88,12 @@ std::vector<KernelDesc> descriptions(const Features& features) {
           {IdentityOut},
           {Status},
           {Seen}},
-         {0, 0, 0, 0, seen}},
+         {0, 0, 0, 0, seen, fluids}},
         {Kernel::Neighbours,
          simulation_neighbours_comp,
          {texels(Sorted), texels(Cells), {List}, {ListCount}, {Status}}},
-        {Kernel::Lambda, simulation_lambda_comp, lambda, {0, 0, 0, meshes, seen}},
-        {Kernel::Measure, simulation_lambda_comp, lambda, {1, 0, 0, meshes, seen}},
+        {Kernel::Lambda, simulation_lambda_comp, lambda, {0, 0, 0, meshes, seen, fluids}},
+        {Kernel::Measure, simulation_lambda_comp, lambda, {1, 0, 0, meshes, seen, fluids}},
         {Kernel::Delta,
          simulation_delta_comp,
          {texels(Pushed),
@@ -105,7 +106,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
           {Meshes},
           {Seen},
           {Before}},
-         {0, bodies, 0, meshes, seen}},
+         {0, bodies, 0, meshes, seen, fluids}},
         {Kernel::Velocity, simulation_velocity_comp, {{Sorted}, {Before}, {Moving}}},
         {Kernel::Curl, simulation_curl_comp, {texels(Sorted), texels(Moving), texels(List), {ListCount}, {Slot::Curl}}},
         {Kernel::Surface,
@@ -115,7 +116,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
         {Kernel::Finish,
          simulation_finish_comp,
          finish,
-         {features.confined ? 1U : 0U, bodies, features.tension ? 1U : 0U, meshes, seen}},
+         {features.confined ? 1U : 0U, bodies, features.tension ? 1U : 0U, meshes, seen, fluids}},
         {Kernel::Retire, simulation_retire_comp, {uniform(Sources), {Births}, {Blocked}, {PositionOut}, {Status}}},
         {Kernel::Born,
          simulation_born_comp,

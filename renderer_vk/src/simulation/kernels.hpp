@@ -47,6 +47,7 @@ struct Features {
     bool tension = false;          ///< surface tension or adhesion
     bool meshes = false;           ///< solids of triangles
     bool seen = false;             ///< a depth field
+    bool fluids = false;           ///< several, each with its own density
     std::uint32_t depth_axis = 1;  ///< along which depth is measured, where it is
 };
 

@@ -114,12 +114,24 @@ Parameters parametersOf(const SimulationSettings& s, const Grid& grid, const Ste
     p.count = {counts.living, stride, most, static_cast<std::uint32_t>(s.solids.size() + bodies.size())};
     p.change = {counts.entries, counts.births, counts.next_identity, static_cast<std::uint32_t>(s.solids.size())};
     p.grid = {grid.x, grid.y - 1, grid.z - 1, grid.cells()};
-    if (s.tension > 0.0F || s.adhesion > 0.0F) {
+    for (std::size_t i = 0; i < s.fluids.size(); ++i) {
+        p.fluids.at(i) = fluidBlock(s.fluids[i]);
+    }
+    if (!s.fluids.empty()) {
+        // Artificial pressure is a pressure: the same for all, that of the lightest in a fluid of its own.
+        const auto lightest = std::min_element(s.fluids.begin(), s.fluids.end(),
+                                               [](const Fluid& a, const Fluid& b) { return a.density < b.density; });
+        p.kernel[3] *= lightest->density;
+    }
+    if (s.tense()) {
         // Cohesion is an attraction of masses, those of a particle of water; its kernel's greatest value is 1 / (2 pi
         // h^3).
         const double peak = kRestDensity * volume / (2.0 * std::numbers::pi * std::pow(h, 3));
         p.surface = {static_cast<float>(double{s.tension} * peak), s.tension,
                      static_cast<float>(double{s.adhesion} * kRestDensity), s.adhesion > 0.0F ? 1.0F : 0.0F};
+        if (!s.fluids.empty()) {  // those of strength 1; each fluid has its own
+            p.surface = {static_cast<float>(peak), 1.0F, static_cast<float>(kRestDensity), 1.0F};
+        }
         static const auto kAdhesion = [] {
             std::array<float, 20> table{};
             for (std::size_t i = 0; i < 16; ++i) {

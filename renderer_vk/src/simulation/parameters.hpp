@@ -19,8 +19,9 @@ struct Parameters {
     std::array<float, 4> surface;
     std::array<float, 20> adhesion;
     std::array<SolidBlock, kMaxSolids + kMaxBodies> solids;  ///< bodies behind those that stand still
+    std::array<FluidBlock, kMaxFluids> fluids;
 };
-static_assert(sizeof(Parameters) == 240 + 48 * (kMaxSolids + kMaxBodies), "std140");
+static_assert(sizeof(Parameters) == 240 + 48 * (kMaxSolids + kMaxBodies) + 32 * kMaxFluids, "std140");
 
 /// The cells of the neighbour search. x is one row of cells with an empty one at each end; y and z are powers of two
 /// and wrap around when the domain has more.

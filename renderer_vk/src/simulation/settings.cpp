@@ -88,6 +88,13 @@ Status checkSolid(const Solid& solid, std::size_t index) {
 
 }  // namespace
 
+bool SimulationSettings::tense() const {
+    return fluids.empty() ? tension > 0.0F || adhesion > 0.0F
+                          : std::any_of(fluids.begin(), fluids.end(), [](const Fluid& fluid) {
+                                return fluid.tension > 0.0F || fluid.adhesion > 0.0F;
+                            });
+}
+
 std::vector<Solid> solidsWithin(const SimulationSettings& settings) {
     const double slack = 1e-3 * double{settings.radius};
     std::vector<Solid> within;
@@ -139,6 +146,9 @@ Status checkSettings(const SimulationSettings& s) {
         return wrong("simulation: solids", fmt::format("at most {} that reach into the domain", kMaxSolids),
                      fmt::format("{}", within));
     }
+    if (Status status = checkFluids(s.fluids); !status) {
+        return status;
+    }
     if (Status status = checkBodies(s.bodies, s.low, s.high); !status) {
         return status;
     }
@@ -159,7 +169,10 @@ Status checkSettings(const SimulationSettings& s) {
 }
 
 Status checkParticles(const SimulationSettings& settings, std::span<const float> positions,
-                      std::span<const float> velocities) {
+                      std::span<const float> velocities, std::span<const std::uint32_t> fluids) {
+    if (Status status = checkFluidNumbers(settings, fluids, positions.size() / 3); !status) {
+        return status;
+    }
     if ((positions.empty() && settings.sources.emitters.empty()) || positions.size() % 3 != 0 ||
         (!velocities.empty() && velocities.size() != positions.size())) {
         return wrong("simulation: particles", "triples, and velocities for all or none",

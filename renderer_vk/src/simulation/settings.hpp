@@ -10,6 +10,7 @@
 #include "simulation/bodies.hpp"
 #include "simulation/depth_field.hpp"
 #include "simulation/distance_grid.hpp"
+#include "simulation/fluids.hpp"
 #include "simulation/solid.hpp"
 #include "simulation/sources.hpp"
 #include "sluice/result.hpp"
@@ -31,7 +32,8 @@ struct SimulationSettings {
     float tension = 0.0F;                  ///< gamma of Akinci et al. 2013, m/s^2; water about 1
     float adhesion = 0.0F;                 ///< beta of the same, towards walls
     float cfl = 0.4F;                      ///< supports that a particle may fly in one step
-    float overshoot = 0.17F;  ///< most that g H dt^2 / (d^2 iterations) may be, H the depth; 0: not held to
+    float overshoot = 0.17F;    ///< most that g H dt^2 / (d^2 iterations) may be, H the depth; 0: not held to
+    std::vector<Fluid> fluids;  ///< none: one of density 1, with the viscosity, tension and adhesion above
     std::vector<Solid> solids;
     SourceSettings sources;
     std::vector<Body> bodies;
@@ -39,6 +41,8 @@ struct SimulationSettings {
     std::shared_ptr<const DepthField> seen;      ///< to begin with; none: there will never be one. Not with bodies
 
     [[nodiscard]] bool meshed() const { return meshes != nullptr && !meshes->nodes.empty(); }
+    /// Tension or adhesion, of any fluid.
+    [[nodiscard]] bool tense() const;
     [[nodiscard]] float support() const { return 4.0F * radius; }
 };
 
@@ -48,8 +52,9 @@ struct SimulationSettings {
 
 /// The first setting that is not finite or out of its range, named.
 [[nodiscard]] Status checkSettings(const SimulationSettings& settings);
-/// The first particle that is not finite, outside the domain or within a solid, named. Velocities: empty or as many.
+/// The first particle that is not finite, outside the domain or within a solid, named. Velocities and numbers of
+/// fluids: empty or as many.
 [[nodiscard]] Status checkParticles(const SimulationSettings& settings, std::span<const float> positions,
-                                    std::span<const float> velocities);
+                                    std::span<const float> velocities, std::span<const std::uint32_t> fluids = {});
 
 }  // namespace sluice::vk

@@ -53,15 +53,15 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
     if (const Status status = checkSettings(settings); !status) {
         return status.error();
     }
-    auto state = std::make_unique<State>(device, settings);
+    auto state = std::make_unique<State>(device, withoutNeedlessFluids(settings));
     state->settings.solids = solidsWithin(settings);
     state->sources = sourceBlock(settings.sources);
     state->walls = wallsOf(settings);
     state->restartBodies();
     Result<Kernels> kernels =
         Kernels::create(device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty(),
-                                 settings.tension > 0.0F || settings.adhesion > 0.0F, settings.meshed(),
-                                 settings.seen != nullptr, deepestAxis(settings)});
+                                 state->settings.tense(), settings.meshed(), settings.seen != nullptr,
+                                 !state->settings.fluids.empty(), deepestAxis(settings)});
     if (!kernels) {
         return kernels.error();
     }
@@ -105,9 +105,10 @@ void Solver::useDepthField(VkBuffer field) {
     }
 }
 
-Status Solver::setParticles(std::span<const float> positions, std::span<const float> velocities) {
+Status Solver::setParticles(std::span<const float> positions, std::span<const float> velocities,
+                            std::span<const std::uint32_t> fluids) {
     State& s = *state_;
-    if (Status status = checkParticles(s.settings, positions, velocities); !status) {
+    if (Status status = checkParticles(s.settings, positions, velocities, fluids); !status) {
         return status;
     }
     const auto count = static_cast<std::uint32_t>(positions.size() / 3);
@@ -124,7 +125,7 @@ Status Solver::setParticles(std::span<const float> positions, std::span<const fl
     for (const Emitter& emitter : s.settings.sources.emitters) {
         s.speed = std::max(s.speed, double{emitter.speed});
     }
-    return uploadParticles(s.device, s.buffers, positions, velocities);
+    return uploadParticles(s.device, s.buffers, positions, velocities, fluids);
 }
 
 Result<StepReport> Solver::step(double seconds) {
@@ -245,7 +246,11 @@ std::span<const BodyState> Solver::bodies() const {
 
 Result<ParticleState> Solver::read() const {
     const State& s = *state_;
-    return downloadParticles(s.device, s.buffers, s.counts.entries, s.odd);
+    Result<ParticleState> particles = downloadParticles(s.device, s.buffers, s.counts.entries, s.odd);
+    if (particles && s.settings.fluids.empty()) {
+        particles.value().fluid.clear();
+    }
+    return particles;
 }
 
 Result<std::vector<float>> Solver::densities() const {

@@ -22,6 +22,7 @@ namespace sluice::vk {
 /// Particles in the order in which they were given. Triples are packed.
 struct ParticleState {
     std::vector<float> position, velocity;
+    std::vector<std::uint32_t> fluid;  ///< of each, where the settings have fluids; else empty
 };
 
 /// What one step did, or tried to do.
@@ -50,7 +51,8 @@ using StepWatch = std::function<bool(const StepReport&, bool kept)>;
 
 /// The state as it lies on the device, in the solver's own order; `identity` says whose each entry is.
 struct DeviceParticles {
-    VkBuffer position = VK_NULL_HANDLE, velocity = VK_NULL_HANDLE;  ///< four floats each, the last is nothing
+    VkBuffer position = VK_NULL_HANDLE,
+             velocity = VK_NULL_HANDLE;  ///< four floats each; a velocity's last is its fluid
     VkBuffer identity = VK_NULL_HANDLE;
     std::uint32_t count = 0;       ///< of entries
     std::uint32_t living = 0;      ///< those whose fourth number of position is 0
@@ -82,8 +84,10 @@ class Solver {
 
     /// Replaces all particles and sets the time to 0; velocities are 0 if there are none. There may be no particles if
     /// there is an emitter. Refused, with the particle named, if one is not
-    /// finite, outside the domain or in a solid; the particles before then stay.
-    [[nodiscard]] Status setParticles(std::span<const float> positions, std::span<const float> velocities);
+    /// finite, outside the domain or in a solid; the particles before then stay. `fluids`: which of the settings' each
+    /// is; of the first if there are none.
+    [[nodiscard]] Status setParticles(std::span<const float> positions, std::span<const float> velocities,
+                                      std::span<const std::uint32_t> fluids = {});
     /// What is seen from now on, in place of SimulationSettings::seen, which there must have been. On an error it stays
     /// as it was.
     [[nodiscard]] Status setDepthField(const DepthField& field);

@@ -79,6 +79,7 @@ Status Solver::State::prepareBirths(double seconds) {
     for (std::size_t i = 0; i < births.size(); ++i) {
         std::copy_n(births[i].position.begin(), 3, record.begin());
         std::copy_n(births[i].velocity.begin(), 3, record.begin() + 4);
+        record[7] = static_cast<float>(births[i].fluid);
         std::memcpy(buffers[Slot::Births].mapped().data() + i * sizeof record, record.data(), sizeof record);
     }
     counts.births = number;

@@ -68,7 +68,7 @@ void Solver::State::record(VkCommandBuffer commands) {
     if (settings.vorticity > 0.0F) {
         run(commands, Kernel::Curl, all);
     }
-    if (settings.tension > 0.0F || settings.adhesion > 0.0F) {
+    if (settings.tense()) {
         run(commands, Kernel::Surface, all);
     }
     run(commands, Kernel::Finish, all);

@@ -9,6 +9,7 @@ list(APPEND SLUICE_VK_SOURCES
     src/simulation/depth.cpp
     src/simulation/depth_field.cpp
     src/simulation/distance_grid.cpp
+    src/simulation/fluids.cpp
     src/simulation/mesh.cpp
     src/simulation/parameters.cpp
     src/simulation/settings.cpp

@@ -75,6 +75,7 @@ void addBirths(const Emitter& emitter, std::span<const Triple> sites, float radi
     for (; timeOf(layer) < std::min(to, stop); layer += 1.0) {
         const double age = to - timeOf(layer);
         Birth birth{};
+        birth.fluid = emitter.fluid;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             birth.velocity.at(axis) =
                 static_cast<float>(double{emitter.speed} * out.at(axis) + age * double{gravity.at(axis)});

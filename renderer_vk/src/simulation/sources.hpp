@@ -24,6 +24,7 @@ struct Emitter {
     float speed = 1.0F;            ///< m/s, > 0
     float rate = 0.0F;             ///< particles per second; 0: layer upon layer, as dense as water at rest
     float start = 0.0F, stop = 0;  ///< seconds of the simulation's time; stop 0: never
+    std::uint32_t fluid = 0;       ///< what comes out of it
 };
 
 /// What takes every particle that ends a step in it.
@@ -62,6 +63,7 @@ struct SourceSettings {
 
 struct Birth {
     Triple position, velocity;
+    std::uint32_t fluid = 0;
 };
 /// Adds the particles that leave from `from` until just before `to`, where they are at `to`: flown as a step of their
 /// age would take them. Ranges that follow each other miss no layer and have none twice.

@@ -128,7 +128,7 @@ Result<Buffer> uploadDepthField(const Device& device, const DepthField& field) {
 }
 
 Status uploadParticles(const Device& device, const SimulationBuffers& buffers, std::span<const float> positions,
-                       std::span<const float> velocities) {
+                       std::span<const float> velocities, std::span<const std::uint32_t> fluids) {
     const std::size_t count = positions.size() / 3;
     if (count == 0) {
         return {};
@@ -139,7 +139,11 @@ Status uploadParticles(const Device& device, const SimulationBuffers& buffers, s
     }
     Status status = upload(device, buffers[Slot::PositionIn], padded(positions, count));
     if (status) {
-        status = upload(device, buffers[Slot::VelocityIn], padded(velocities, count));
+        std::vector<Texel> moving = padded(velocities, count);
+        for (std::size_t i = 0; i < fluids.size(); ++i) {
+            moving[i][3] = static_cast<float>(fluids[i]);
+        }
+        status = upload(device, buffers[Slot::VelocityIn], moving);
     }
     if (status) {
         status = upload(device, buffers[Slot::IdentityIn], identity);
@@ -195,6 +199,7 @@ Result<ParticleState> downloadParticles(const Device& device, const SimulationBu
         const Texel& v = velocity.value()[i];
         state.position.insert(state.position.end(), x.begin(), x.begin() + 3);
         state.velocity.insert(state.velocity.end(), v.begin(), v.begin() + 3);
+        state.fluid.push_back(static_cast<std::uint32_t>(v[3]));
     }
     return state;
 }

@@ -15,9 +15,10 @@ namespace sluice::vk {
 [[nodiscard]] Result<Buffer> uploadMeshes(const Device& device, const DistanceGrid& grid);
 /// Header and depths; room for one depth at least.
 [[nodiscard]] Result<Buffer> uploadDepthField(const Device& device, const DepthField& field);
-/// Into the In buffers of the even state. Velocities: empty or as many.
+/// Into the In buffers of the even state. Velocities and numbers of fluids: empty or as many.
 [[nodiscard]] Status uploadParticles(const Device& device, const SimulationBuffers& buffers,
-                                     std::span<const float> positions, std::span<const float> velocities);
+                                     std::span<const float> positions, std::span<const float> velocities,
+                                     std::span<const std::uint32_t> fluids);
 /// The state, from buffers to larger ones.
 [[nodiscard]] Status copyParticles(const Device& device, const SimulationBuffers& from, const SimulationBuffers& to,
                                    std::uint32_t count, bool odd);

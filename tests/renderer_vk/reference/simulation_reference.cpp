@@ -36,8 +36,23 @@ double densityAt(const std::vector<Vec>& x, const std::vector<std::size_t>& list
     return density;
 }
 
-void iterate(const SimulationSettings& s, Bodies& bodies, const Kernels& kernels, const Lists& lists,
-             std::vector<Vec>& x, const std::vector<Vec>& start) {
+/// Of every particle.
+std::vector<Fluid> fluidsOf(const SimulationSettings& s, const ReferenceState& state) {
+    const Fluid one{1.0F, s.viscosity, s.tension, s.adhesion};
+    std::vector<Fluid> all(state.position.size(), s.fluids.empty() ? one : s.fluids[0]);
+    for (std::size_t i = 0; i < state.fluid.size(); ++i) {
+        all[i] = s.fluids[state.fluid[i]];
+    }
+    return all;
+}
+
+/// In units of a particle of water.
+double mass(const Fluid& fluid) {
+    return double{fluid.density};
+}
+
+void iterate(const SimulationSettings& s, const std::vector<Fluid>& fluids, Bodies& bodies, const Kernels& kernels,
+             const Lists& lists, std::vector<Vec>& x, const std::vector<Vec>& start) {
     const double h = kernels.h;
     std::vector<double> lambda(x.size());
     std::vector<Walls> walls(x.size());
@@ -48,36 +63,42 @@ void iterate(const SimulationSettings& s, Bodies& bodies, const Kernels& kernels
         for (const std::size_t j : lists[i]) {
             const Vec gradient = kernels.volume * kernels.gradient(x[i] - x[j]);
             own = own + gradient;
-            squares += dot(gradient, gradient);
+            squares += dot(gradient, gradient) / mass(fluids[j]);
         }
         const double excess = std::max(densityAt(x, lists[i], kernels, walls[i], i) - 1.0, 0.0);
-        lambda[i] = -excess / (squares + dot(own, own) + double{s.relaxation} / (h * h));
+        const double relaxed = dot(own, own) + double{s.relaxation} / (h * h);
+        lambda[i] = -excess / (squares + relaxed / mass(fluids[i]));
     }
+    double lightest = 1e300;
+    for (const Fluid& fluid : s.fluids) {
+        lightest = std::min(lightest, mass(fluid));
+    }
+    lightest = s.fluids.empty() ? 1.0 : lightest;
     std::vector<Vec> moved(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) {
         Vec delta = lambda[i] * walls[i].gradient;
         for (const std::size_t j : lists[i]) {
             const Vec d = x[i] - x[j];
             const double ratio = kernels.poly6(norm(d)) / kernels.poly6(0.2 * h);
-            const double artificial = -double{s.tensile} * h * h * std::pow(ratio, 4);
+            const double artificial = -double{s.tensile} * lightest * h * h * std::pow(ratio, 4);
             delta = delta + (lambda[i] + lambda[j] + artificial) * kernels.volume * kernels.gradient(d);
         }
         for (std::size_t k = 0; k < bodies.size(); ++k) {
             push(bodies[k], x[i], lambda[i] * walls[i].parts[walls[i].parts.size() - bodies.size() + k]);
         }
-        moved[i] = pushedOut(s, bodies, x[i] + delta, start[i]);
+        moved[i] = pushedOut(s, bodies, x[i] + 1.0 / mass(fluids[i]) * delta, start[i], mass(fluids[i]));
     }
     x = moved;
 }
 
 /// Akinci et al. 2013, with the density of rest 1000 and volumes of rest in the normals, m/s^2.
-std::vector<Vec> surfaceForces(const SimulationSettings& s, const Bodies& bodies, const Kernels& kernels,
-                               const Lists& lists, const std::vector<Vec>& x) {
+std::vector<Vec> surfaceForces(const SimulationSettings& s, const std::vector<Fluid>& fluids, const Bodies& bodies,
+                               const Kernels& kernels, const Lists& lists, const std::vector<Vec>& x) {
     const double h = kernels.h;
     std::vector<Vec> pull(x.size());
     std::vector<Vec> normal(x.size());
     std::vector<double> density(x.size());
-    if (s.tension <= 0.0F && s.adhesion <= 0.0F) {
+    if (!s.tense()) {
         return pull;
     }
     for (std::size_t i = 0; i < x.size(); ++i) {
@@ -96,7 +117,10 @@ std::vector<Vec> surfaceForces(const SimulationSettings& s, const Bodies& bodies
             const double shape = r > h / 2.0 ? bump : 2.0 * bump - std::pow(h, 6) / 64.0;
             const double cohesion = 32.0 / (kPi * std::pow(h, 9)) * shape;
             const Vec force = 1000.0 * kernels.volume * cohesion / r * d + (normal[i] - normal[j]);
-            pull[i] = pull[i] - double{s.tension} * 2.0 / (density[i] + density[j]) * force;
+            // Newton's third law: the two masses' mean over the own.
+            const double gamma = std::sqrt(double{fluids[i].tension} * double{fluids[j].tension}) * 2.0 *
+                                 mass(fluids[j]) / (mass(fluids[i]) + mass(fluids[j]));
+            pull[i] = pull[i] - gamma * 2.0 / (density[i] + density[j]) * force;
         }
         for (const Contact& contact : contacts(s, bodies, x[i])) {
             const double d = std::clamp(contact.distance, 0.0, h);
@@ -105,7 +129,7 @@ std::vector<Vec> surfaceForces(const SimulationSettings& s, const Bodies& bodies
                 const double root = std::pow(std::max(-4.0 * r * r / h + 6.0 * r - 2.0 * h, 0.0), 0.25);
                 return 0.007 / std::pow(h, 3.25) * root * kPi * (r * r - d * d);
             });
-            pull[i] = pull[i] - double{s.adhesion} * 1000.0 * sum * contact.normal;
+            pull[i] = pull[i] - double{fluids[i].adhesion} * 1000.0 * sum * contact.normal;
         }
     }
     return pull;
@@ -122,16 +146,17 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
                              std::vector<ReferenceBody>& bodies) {
     const Kernels kernels(double{s.radius});
     const std::size_t n = before.position.size();
+    const std::vector<Fluid> fluids = fluidsOf(s, before);
     std::vector<Vec> x(n);
     std::vector<Vec> start(n);
     for (std::size_t i = 0; i < n; ++i) {
         start[i] = rescued(s, before.position[i]);
         const Vec pull = wide(s.gravity) + fieldsAt(s, start[i]);
-        x[i] = pushedOut(s, bodies, start[i] + dt * (before.velocity[i] + dt * pull), start[i]);
+        x[i] = pushedOut(s, bodies, start[i] + dt * (before.velocity[i] + dt * pull), start[i], mass(fluids[i]));
     }
     const Lists lists = allPairs(x, kernels.h);
     for (std::uint32_t k = 0; k < s.iterations; ++k) {
-        iterate(s, bodies, kernels, lists, x, start);
+        iterate(s, fluids, bodies, kernels, lists, x, start);
     }
     std::vector<Vec> v(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -143,23 +168,26 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
             curl[i] = curl[i] + kernels.volume * cross(v[j] - v[i], -1.0 * kernels.gradient(x[i] - x[j]));
         }
     }
-    ReferenceState after{x, v, std::vector<double>(n)};
-    const std::vector<Vec> pull = surfaceForces(s, bodies, kernels, lists, x);
+    ReferenceState after{x, v, std::vector<double>(n), before.fluid};
+    const std::vector<Vec> pull = surfaceForces(s, fluids, bodies, kernels, lists, x);
     for (std::size_t i = 0; i < n; ++i) {
         Vec drift{};
         Vec eta{};
         for (const std::size_t j : lists[i]) {
-            drift = drift + kernels.volume * kernels.poly6(norm(x[i] - x[j])) * (v[j] - v[i]);
+            const double rub = (double{fluids[i].viscosity} + double{fluids[j].viscosity}) / 2.0;
+            const double share = 2.0 * mass(fluids[j]) / (mass(fluids[i]) + mass(fluids[j]));
+            drift = drift + rub * share * kernels.volume * kernels.poly6(norm(x[i] - x[j])) * (v[j] - v[i]);
             eta = eta + kernels.volume * norm(curl[j]) * kernels.gradient(x[i] - x[j]);
         }
-        after.velocity[i] = v[i] + double{s.viscosity} * drift;
+        after.velocity[i] = v[i] + drift;
         for (ReferenceBody& body : bodies) {
             const double distance = std::max(touching(body.solid, x[i]).distance, 0.0);
             if (distance < kernels.h) {
                 const Vec there = body.velocity + cross(body.spin, x[i] - body.centre);
-                const Vec drag = double{s.viscosity} * kernels.wall * kernels.halfSpace(distance) * (there - v[i]);
+                const Vec drag =
+                    double{fluids[i].viscosity} * kernels.wall * kernels.halfSpace(distance) * (there - v[i]);
                 after.velocity[i] = after.velocity[i] + drag;
-                push(body, x[i], dt * drag);
+                push(body, x[i], mass(fluids[i]) * dt * drag);
             }
         }
         if (s.vorticity > 0.0F && norm(eta) > 1e-6) {

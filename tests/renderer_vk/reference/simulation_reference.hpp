@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <vector>
 
 #include "simulation/settings.hpp"
@@ -14,7 +15,8 @@ using Vec = std::array<double, 3>;
 
 struct ReferenceState {
     std::vector<Vec> position, velocity;
-    std::vector<double> density;  ///< after the step
+    std::vector<double> density;         ///< after the step
+    std::vector<std::uint32_t> fluid{};  ///< of the settings'; may be empty: all of the first
 };
 
 /// A body where it is at the end of the step, and the sums of what it moves particles by.

@@ -155,7 +155,8 @@ inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& 
     return all;
 }
 
-inline Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x, const Vec& start) {
+/// `mass`: of the particle, which counts in what it gives a body.
+inline Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x, const Vec& start, double mass) {
     const auto r = double{s.radius};
     for (const Solid& solid : s.solids) {
         const Contact contact = touching(solid, x);
@@ -164,7 +165,7 @@ inline Vec pushedOut(const SimulationSettings& s, Bodies& bodies, Vec x, const V
     for (ReferenceBody& body : bodies) {
         const Contact contact = touching(body.solid, x);
         const Vec by = std::max(r - contact.distance, 0.0) * contact.normal;
-        push(body, x, by);
+        push(body, x, mass * by);
         x = x + by;
     }
     x = keptInFront(s, x, start);
