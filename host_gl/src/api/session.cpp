@@ -297,7 +297,7 @@ Status Session::beginFrame(const float* view, const float* projection, double ti
         return {};
     }
     owed_ = std::clamp(owed_ + std::max(passed, 0.0), 0.0, kLongestStride);
-    const Status camera = setCamera(view, projection);
+    Status camera = setCamera(view, projection);
     if (currentContext().kind == ContextKind::None) {
         return noContext("sluice_begin_frame");
     }
@@ -307,7 +307,7 @@ Status Session::beginFrame(const float* view, const float* projection, double ti
     }
     // What has not been drawn yet is not left behind: an engine that skips frames must not pile up steps.
     if (!pending_) {
-        const Status status = host_->simulate(value_ + 1, value_ == 0 ? 0.0 : owed_);
+        Status status = host_->simulate(value_ + 1, value_ == 0 ? 0.0 : owed_);
         if (!status && !host_->recovering()) {
             return status;
         }
