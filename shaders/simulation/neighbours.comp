@@ -10,7 +10,8 @@
 layout(local_size_x = 64) in;
 layout(set = 0, binding = 1) uniform textureBuffer sorted;
 layout(set = 0, binding = 2) uniform utextureBuffer cells;
-layout(std430, set = 0, binding = 3) writeonly buffer List { uint list[]; };
+// As texels, of which a device takes more than bytes of a storage buffer: llvmpipe 512 MiB in place of 128.
+layout(set = 0, binding = 3, r32ui) uniform writeonly uimageBuffer list;
 layout(std430, set = 0, binding = 4) writeonly buffer ListCount { uint list_count[]; };
 layout(std430, set = 0, binding = 5) buffer Status { uint faults, most_neighbours, speed, move; };
 
@@ -34,7 +35,7 @@ void main() {
             const vec3 d = texelFetch(sorted, int(j)).xyz - x;
             if (dot(d, d) < square && j != i) {
                 if (number < p.count.z) {
-                    list[number * p.count.y + i] = j;
+                    imageStore(list, int(number * p.count.y + i), uvec4(j));
                 }
                 ++number;
             }

@@ -8,6 +8,7 @@
 #include <numeric>
 
 #include "reference/simulation_reference.hpp"
+#include "simulation/buffers.hpp"
 #include "simulation_rig.hpp"
 
 namespace sluice::vk::test {
@@ -196,6 +197,24 @@ TEST_F(NeighbourSearch, InADomainFarLargerThanTheTableOfCellsIsBruteForce) {
     const auto solver = make(settings, positions);
     ASSERT_TRUE(solver->step(0.001).ok());
     expectBruteForce(settings, *solver);
+}
+
+TEST_F(NeighbourSearch, ListsMayBeLargerThanAStorageBufferAndTheMostTexelsIsNamed) {
+    const VkPhysicalDeviceLimits& limits = device().properties.limits;
+    constexpr std::uint32_t kRows = 64;
+    constexpr std::uint32_t kCells = 1U << 16;
+    const auto beyond = [](std::uint64_t words) { return static_cast<std::uint32_t>(words / kRows / 64 * 64 + 128); };
+    if (limits.maxStorageBufferRange <= 1U << 27) {  // nothing of it is touched
+        const auto made = createBuffers(device(), beyond(limits.maxStorageBufferRange / 4), kRows, kCells);
+        EXPECT_TRUE(made.ok()) << made.error().message();
+    }
+    if (limits.maxTexelBufferElements <= 1U << 27) {
+        const auto refused = createBuffers(device(), beyond(limits.maxTexelBufferElements), kRows, kCells);
+        ASSERT_FALSE(refused.ok());
+        EXPECT_THAT(refused.error().message(), HasSubstr("simulation lists: "));
+        EXPECT_THAT(refused.error().message(),
+                    HasSubstr(std::to_string(std::uint64_t{4} * limits.maxTexelBufferElements)));
+    }
 }
 
 TEST_F(SimulationStep, WhatIsNotFiniteOrOutsideIsNamedAndChangesNothing) {

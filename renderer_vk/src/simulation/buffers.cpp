@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "device/structs.hpp"
@@ -91,11 +92,15 @@ Result<MadeSlot> makeSlot(const Device& device, const SimulationBuffers& buffers
     const SlotSize size = sizeOf(slot, buffers);
     const VkDeviceSize texel = size.texels == VK_FORMAT_R32_UINT ? 4 : 16;
     const VkPhysicalDeviceLimits& limits = device.properties.limits;
-    if (size.bytes > limits.maxStorageBufferRange ||
-        (size.texels != VK_FORMAT_UNDEFINED && size.bytes / texel > limits.maxTexelBufferElements)) {
+    // Lists are only ever read and written as texels, so that the range of a storage buffer is no bound for them.
+    const bool as_texels = slot == Slot::List;
+    const VkDeviceSize most = std::min(
+        as_texels ? ~VkDeviceSize{0} : VkDeviceSize{limits.maxStorageBufferRange},
+        size.texels == VK_FORMAT_UNDEFINED ? ~VkDeviceSize{0} : texel * VkDeviceSize{limits.maxTexelBufferElements});
+    if (size.bytes > most) {
         return Error{SLUICE_ERROR_UNSUPPORTED, size.name,
                      fmt::format("{} bytes for {} particles are more than the device's buffers hold ({})", size.bytes,
-                                 buffers.particles, limits.maxStorageBufferRange),
+                                 buffers.particles, most),
                      "simulate fewer particles"};
     }
     const bool uniform = slot == Slot::Parameters || slot == Slot::Sources || slot == Slot::Bodies;
@@ -105,6 +110,9 @@ Result<MadeSlot> makeSlot(const Device& device, const SimulationBuffers& buffers
                                              VK_BUFFER_USAGE_TRANSFER_DST_BIT;
     if (size.texels != VK_FORMAT_UNDEFINED) {
         usage |= VK_BUFFER_USAGE_UNIFORM_TEXEL_BUFFER_BIT;
+        if (as_texels) {
+            usage |= VK_BUFFER_USAGE_STORAGE_TEXEL_BUFFER_BIT;
+        }
     }
     Result<Buffer> buffer = Buffer::create(
         device, {size.bytes, usage, written_by_host ? BufferPlace::Upload : BufferPlace::Device, size.name});

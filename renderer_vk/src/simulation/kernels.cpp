@@ -91,7 +91,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
          {0, 0, 0, 0, seen, fluids}},
         {Kernel::Neighbours,
          simulation_neighbours_comp,
-         {texels(Sorted), texels(Cells), {List}, {ListCount}, {Status}}},
+         {texels(Sorted), texels(Cells), {List, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER}, {ListCount}, {Status}}},
         {Kernel::Lambda, simulation_lambda_comp, lambda, {0, 0, 0, meshes, seen, fluids}},
         {Kernel::Measure, simulation_lambda_comp, lambda, {1, 0, 0, meshes, seen, fluids}},
         {Kernel::Delta,
@@ -176,9 +176,10 @@ Result<Kernels> Kernels::create(const Device& device, const Features& features) 
     made.device_ = &device;
     made.features_ = features;
     constexpr auto kSets = static_cast<std::uint32_t>(2 * kKernels);
-    constexpr std::array<VkDescriptorPoolSize, 3> kSizes{{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 3 * kSets},
+    constexpr std::array<VkDescriptorPoolSize, 4> kSizes{{{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, 3 * kSets},
                                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, 12 * kSets},
-                                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 5 * kSets}}};
+                                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, 5 * kSets},
+                                                          {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, kSets}}};
     auto pool = vkStruct<VkDescriptorPoolCreateInfo>(VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO);
     pool.maxSets = kSets;
     pool.poolSizeCount = static_cast<std::uint32_t>(kSizes.size());
