@@ -309,6 +309,60 @@ TEST(Api, ALedgersLogHasEveryFrameAndNothingToFind) {
     std::filesystem::remove(path);
 }
 
+TEST(Api, AFlowIsChangedWhileItFlowsAndKeptInAnotherContext) {
+    Log log;
+    Fluid fluid;
+    SluiceEmitter tap{};
+    tap.centre[1] = 1.5F;
+    tap.direction[1] = -1.0F;
+    tap.width = 0.4F;
+    tap.height = 0.4F;
+    tap.speed = 2.0F;
+    SluiceWater water{};
+    sluice_water_defaults(&water, sizeof(water));
+    water.radius = 0.08F;
+    water.emitter_count = 1;
+    water.emitters = &tap;
+    SluiceFlow flow{};
+    sluice_flow_of(&water, &flow, sizeof(flow));
+    ASSERT_EQ(flow.emitter_count, 1U);
+    EXPECT_EQ(flow.emitters[0].speed, 2.0F);
+    EXPECT_EQ(flow.iterations, water.iterations);
+    double time = 1.0;
+    const auto particlesAfter = [&](int frames) {
+        for (int k = 0; k < frames; ++k) {
+            EXPECT_EQ(frame(fluid.get(), time += 0.04), SLUICE_OK) << sluice_last_error(fluid.get());
+        }
+        return statisticsOf(fluid.get()).particles;
+    };
+    {
+        const EglCaller first({});
+        const Buffers screen(kWidth, kHeight, {});
+        fluid = make(options(log, SLUICE_PROCESS_OWN));
+        EXPECT_EQ(sluice_set_flow(fluid.get(), &flow), SLUICE_ERROR_INVALID_ARGUMENT) << "there is no fluid yet";
+        log.lines.clear();
+        ASSERT_EQ(sluice_set_water(fluid.get(), &water), SLUICE_OK) << sluice_last_error(fluid.get());
+        EXPECT_GT(particlesAfter(4), 4U);
+        flow.emitter_count = 0;
+        ASSERT_EQ(sluice_set_flow(fluid.get(), &flow), SLUICE_OK) << sluice_last_error(fluid.get());
+        const std::uint32_t shut = particlesAfter(2);
+        EXPECT_EQ(particlesAfter(2), shut);
+        const SluiceStatistics statistics = statisticsOf(fluid.get());
+        EXPECT_EQ(statistics.cpu_copy_bytes + statistics.upload_bytes, 0U);
+        EXPECT_GT(statistics.pass_count, 3U);
+        EXPECT_GT(statistics.last_simulation_seconds, 0.0);
+        EXPECT_LE(statistics.wait_seconds, statistics.end_frame_seconds);
+        SluiceFlow wrong = flow;
+        wrong.viscosity = -1.0F;
+        EXPECT_EQ(sluice_set_flow(fluid.get(), &wrong), SLUICE_ERROR_INVALID_ARGUMENT);
+        log.lines.clear();
+    }
+    const EglCaller second({});
+    const Buffers screen(kWidth, kHeight, {});
+    EXPECT_EQ(particlesAfter(3), 0U) << "the jet is open again";
+    EXPECT_EQ(log.lines, std::vector<std::string>{});
+}
+
 TEST(Api, InAProcessOfItsOwn) {
     const EglCaller caller({});
     const Buffers screen(kWidth, kHeight, {});

@@ -67,6 +67,7 @@ inline std::vector<Message> sampleMessages() {
             Returned{{}, SLUICE_OK, 0, "", sized<SluiceSimulationStats>()},
             SimulationBodies{{}, 6},
             SetBody{{}, 2, sized<SluiceBodyTarget>()},
+            SetFlow{{}, sized<SluiceFlow>()},
             Returned{{}, SLUICE_OK, 0, "", bodies}};
 }
 

@@ -104,6 +104,10 @@ SluiceRendererApi fakeApi() {
         fake.simulated = static_cast<double>(body) + double{target->centre[1]};
         return SLUICE_OK;
     };
+    api.set_flow = [](SluiceRenderer* /*renderer*/, const SluiceFlow* flow, SluiceError* /*error*/) -> SluiceResult {
+        fake.simulated = double{flow->emitters[0].speed};
+        return SLUICE_OK;
+    };
     api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
                           SluiceError* /*error*/) -> SluiceResult {
         fake.own_value = frame->signal_value;
@@ -234,6 +238,11 @@ TEST_F(IsolateServer, ASimulationCrossesWithItsArraysOrIsRefused) {
     send(to);
     EXPECT_EQ(returned().result, SLUICE_OK);
     EXPECT_EQ(fake.simulated, 1.25);
+    SetFlow flow{{}, sized<SluiceFlow>()};
+    flow.flow.emitters[0].speed = 3.5F;
+    send(flow);
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.simulated, 3.5);
     call.simulation.particle_count = 3;
     send(call, {memory.get()});
     EXPECT_EQ(returned().result, SLUICE_ERROR_INVALID_ARGUMENT) << "the memory is shorter than that";

@@ -105,6 +105,70 @@ TEST_F(LiveSources, WhoComesAndGoesIsTheSolversOwnToTheBitForEveryNumberOfFrames
     ASSERT_NO_FATAL_FAILURE(expectPictures(empty, from_nothing));
 }
 
+TEST_F(LiveSources, TheFlowChangesWhileItFlowsAsTheSolversDoes) {
+    // From value 3 on the jet is elsewhere, and all else is different, too; from 5 on it is shut.
+    const auto flowAt = [](std::uint64_t value, const Tap& tap) {
+        auto flow = sized<SluiceFlow>();
+        flow.iterations = value == 3 ? 3 : 4;
+        flow.gravity[value == 3 ? 0 : 1] = -9.81F;
+        flow.viscosity = 0.02F;
+        flow.tension = value == 3 ? 1.0F : 0.0F;
+        flow.emitter_count = value == 3 ? 1 : 0;
+        flow.emitters[0] = tap.emitter;
+        flow.emitters[0].centre[0] = 0.2F;
+        return flow;
+    };
+    const auto settingsAt = [&](std::uint64_t value, const Tap& tap) {
+        FlowSettings to;
+        to.iterations = value == 3 ? 3 : 4;
+        to.gravity = value == 3 ? Triple{-9.81F, 0, 0} : Triple{0, -9.81F, 0};
+        to.tension = value == 3 ? 1.0F : 0.0F;
+        if (value == 3) {
+            to.emitters = tap.settings.sources.emitters;
+            to.emitters[0].centre[0] = 0.2F;
+        }
+        return to;
+    };
+    Tap tap;
+    tap.simulation.drain_count = 0;
+    tap.settings.sources.drains.clear();
+    std::vector<std::uint32_t> living;
+    tap.seen = [&](Solver& solver) {
+        living.push_back(solver.count());
+        if (const std::uint64_t next = living.size() + 1; next == 3 || next == 5) {
+            EXPECT_TRUE(solver.setFlow(settingsAt(next, tap)));
+        }
+    };
+    ASSERT_NO_FATAL_FAILURE(start(tap));
+    const auto pictures = uploaded(tap, kValues);
+    ASSERT_NO_FATAL_FAILURE(start(tap));
+    for (std::uint64_t k = 1; k <= kValues; ++k) {
+        if (k == 3 || k == 5) {
+            const SluiceFlow flow = flowAt(k, tap);
+            ASSERT_EQ(api().set_flow(renderer->get(), &flow, &said), SLUICE_OK) << said.message;
+        }
+        ASSERT_EQ(simulate(k, k == 1 ? 0.0 : kFrame), SLUICE_OK);
+        EXPECT_EQ(draw(k, k), pictures[k - 1]) << "value " << k;
+    }
+    EXPECT_GT(living[2], living[1]);
+    EXPECT_EQ(living[5], living[3]) << "the jet is shut";
+    EXPECT_EQ(stats().failed, 0U) << stats().message;
+    EXPECT_EQ(frameStats(kValues).validation_messages, 0U);
+    // What is wrong is refused at once.
+    SluiceFlow wrong = flowAt(3, tap);
+    wrong.emitter_count = 2;
+    EXPECT_EQ(api().set_flow(renderer->get(), &wrong, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(said.message, HasSubstr("expected at most the 1 of set_simulation, found 2"));
+    wrong = flowAt(3, tap);
+    wrong.emitters[0].centre[1] = 5.0F;
+    EXPECT_EQ(api().set_flow(renderer->get(), &wrong, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    wrong = flowAt(3, tap);
+    wrong.iterations = 0;
+    EXPECT_EQ(api().set_flow(renderer->get(), &wrong, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(api().set_flow(renderer->get(), nullptr, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(simulate(kValues + 1, kFrame), SLUICE_OK);
+}
+
 /// A ball that floats in the block, a crate on a path, and a sphere that the host drives.
 struct Movers : Block {
     Movers() {

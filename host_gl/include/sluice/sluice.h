@@ -168,6 +168,11 @@ SLUICE_EXPORT void sluice_water_defaults(SluiceWater* water, size_t struct_size)
 /* Let this fluid begin; NULL: no fluid. */
 SLUICE_EXPORT SluiceResult sluice_set_water(Sluice* fluid, const SluiceWater* water);
 
+/* What may change while it flows: from the next frame on, the fluid that there is stays. Emitters may be moved, opened
+ * and shut: as many as in SluiceWater, or fewer. sluice_flow_of is what a water begins with, so change that. */
+SLUICE_EXPORT void sluice_flow_of(const SluiceWater* water, SluiceFlow* flow, size_t struct_size);
+SLUICE_EXPORT SluiceResult sluice_set_flow(Sluice* fluid, const SluiceFlow* flow);
+
 /* Where a driven body is to be at the end of the frame that begins next. */
 SLUICE_EXPORT SluiceResult sluice_set_body(Sluice* fluid, uint32_t body, const SluiceBodyTarget* target);
 /* Where all bodies are, as far as has been simulated: what the engine draws them at. SLUICE_NOT_READY at the start. */
@@ -208,6 +213,12 @@ typedef struct SluiceStatistics {
     /* With SluiceOptions::timings, sums over all frames, else 0. The first and the last are GL's own time and come some
      * frames late; fluid and simulation are the renderer's queue's, and run beside the engine. */
     double capture_seconds, hand_over_seconds, fluid_seconds, simulation_seconds, composite_seconds;
+    double wait_seconds;            /* of end_frame_seconds: the wait for the renderer, and the composite */
+    double last_simulation_seconds; /* that the fluid's last frame took, beside the engine's own work */
+    uint64_t cpu_copy_bytes;        /* of shared images in the last frame that drew fluid; 0 by contract */
+    uint64_t upload_bytes;          /* of particles, likewise; 0 while the fluid flows in the renderer */
+    uint32_t pass_count, reserved_2;
+    SluicePassStats passes[SLUICE_MAX_PASSES]; /* of that frame: which ran, and how long */
 } SluiceStatistics;
 SLUICE_EXPORT SluiceResult sluice_statistics(Sluice* fluid, SluiceStatistics* statistics);
 

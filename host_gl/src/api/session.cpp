@@ -176,6 +176,7 @@ bool Session::reachable() const {
 Status Session::start(const CurrentContext& context, const Extent& extent) {
     drop();
     value_ = 0;
+    drawn_ = 0;
     pending_ = false;
     if (Status status = startLedger(); !status) {
         return status;
@@ -210,7 +211,8 @@ Status Session::giveScene() {
         }
     }
     const std::optional<SluiceSimulation> simulation = scene_.simulation();
-    return simulation ? host_->setSimulation(&*simulation) : Status{};
+    Status status = simulation ? host_->setSimulation(&*simulation) : Status{};
+    return status && simulation && flow_ ? host_->setFlow(*flow_) : status;
 }
 
 Status Session::settle(const std::optional<Extent>& wanted) {

@@ -36,6 +36,7 @@ class Session {
     [[nodiscard]] Status endFrame();
 
     [[nodiscard]] Status setWater(const SluiceWater* water);
+    [[nodiscard]] Status setFlow(const SluiceFlow* flow);
     [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget* target);
     [[nodiscard]] Status bodies(SluiceBodies* bodies);
     [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment);
@@ -81,7 +82,8 @@ class Session {
     bool follows_drawable_;
     SluiceTimelineKind timeline_;
 
-    KeptScene scene_;  ///< environment and simulation, for another context
+    KeptScene scene_;                 ///< environment and simulation, for another context
+    std::optional<SluiceFlow> flow_;  ///< of that simulation, if it was changed
     bool has_water_ = false;
     std::uint32_t particles_ = 0;  ///< at the start
     SluiceFluid look_{};
@@ -106,8 +108,9 @@ class Session {
     std::uint64_t value_ = 0;      ///< of the simulation, asked for
     bool pending_ = false;         ///< that value has not been drawn
     bool in_frame_ = false;
+    std::uint64_t drawn_ = 0;  ///< the host's number of the last frame with fluid; 0: none in this context
     std::uint64_t frames_ = 0, frames_without_ = 0;
-    double end_frame_seconds_ = 0.0;
+    double end_frame_seconds_ = 0.0, wait_seconds_ = 0.0;
     Timings timings_;
     std::string last_error_, last_told_;
 };

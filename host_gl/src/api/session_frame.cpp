@@ -101,7 +101,11 @@ Status Session::draw() {
         return status;
     }
     pending_ = false;
-    return host_->composite(screen);
+    const auto begin = std::chrono::steady_clock::now();
+    Status status = host_->composite(screen);
+    wait_seconds_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    drawn_ = status ? host_->frame() : drawn_;
+    return status;
 }
 
 Status Session::setWater(const SluiceWater* asked) {
@@ -120,6 +124,7 @@ Status Session::setWater(const SluiceWater* asked) {
         simulation = water.view();
     }
     scene_.keep(asked != nullptr ? &simulation : nullptr);
+    flow_.reset();
     has_water_ = asked != nullptr;
     particles_ = water.count();
     value_ = 0;
@@ -137,6 +142,24 @@ Status Session::setWater(const SluiceWater* asked) {
         has_water_ = false;
     }
     return status;
+}
+
+Status Session::setFlow(const SluiceFlow* asked) {
+    if (Status status = checkAbiStruct(asked, "flow"); !status) {
+        return status;
+    }
+    if (!has_water_) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_set_flow", "there is no fluid", "call sluice_set_water"};
+    }
+    const SluiceFlow known = readAbiStruct(*asked);
+    if (reachable()) {
+        const GlErrorScope errors;
+        if (Status status = host_->setFlow(known); !status) {
+            return status;
+        }
+    }
+    flow_ = known;
+    return {};
 }
 
 Status Session::setBody(std::uint32_t body, const SluiceBodyTarget* target) {
@@ -186,6 +209,7 @@ Result<SluiceStatistics> Session::statistics() {
     out.fluid_seconds = timings_.fluid;
     out.simulation_seconds = timings_.simulation;
     out.composite_seconds = timings_.composite;
+    out.wait_seconds = wait_seconds_;
     if (!reachable()) {
         return out;
     }
@@ -204,6 +228,16 @@ Result<SluiceStatistics> Session::statistics() {
         out.steps = simulation.value().steps;
         out.simulation_failed = simulation.value().failed;
         out.particles = simulation.value().particle_count;
+        out.last_simulation_seconds = static_cast<double>(simulation.value().last_busy_ns) * 1e-9;
+    }
+    if (drawn_ == 0 || host_->recovering()) {
+        return out;
+    }
+    if (const Result<SluiceFrameStats> frame = host_->stats(drawn_); frame) {
+        out.cpu_copy_bytes = frame.value().cpu_copy_bytes;
+        out.upload_bytes = frame.value().upload_bytes;
+        out.pass_count = std::min(frame.value().pass_count, SLUICE_MAX_PASSES);
+        std::copy_n(frame.value().passes, out.pass_count, out.passes);
     }
     return out;
 }

@@ -168,6 +168,16 @@ SluiceResult sluice_set_water(Sluice* fluid, const SluiceWater* water) {
     return call(fluid, [&](sluice::host::Session& session) { return session.setWater(water); });
 }
 
+void sluice_flow_of(const SluiceWater* water, SluiceFlow* flow, size_t struct_size) {
+    const bool readable = water != nullptr && sluice::checkAbiStruct(water, "water");
+    const SluiceWater known = readable ? sluice::readAbiStruct(*water) : sluice::host::defaultWater();
+    sluice::writeDefaults(flow, sluice::host::flowOf(known), struct_size);
+}
+
+SluiceResult sluice_set_flow(Sluice* fluid, const SluiceFlow* flow) {
+    return call(fluid, [&](sluice::host::Session& session) { return session.setFlow(flow); });
+}
+
 SluiceResult sluice_set_body(Sluice* fluid, uint32_t body, const SluiceBodyTarget* target) {
     return call(fluid, [&](sluice::host::Session& session) { return session.setBody(body, target); });
 }

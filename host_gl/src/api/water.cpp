@@ -234,6 +234,19 @@ SluiceWater defaultWater() {
     return water;
 }
 
+SluiceFlow flowOf(const SluiceWater& water) {
+    auto flow = sized<SluiceFlow>();
+    flow.iterations = water.iterations;
+    std::copy_n(water.gravity, 3, flow.gravity);
+    flow.viscosity = water.viscosity;
+    flow.vorticity = water.vorticity;
+    flow.tension = water.tension;
+    flow.adhesion = water.adhesion;
+    flow.emitter_count = water.emitters != nullptr ? std::min(water.emitter_count, SLUICE_MAX_EMITTERS) : 0;
+    std::copy_n(water.emitters, flow.emitter_count, flow.emitters);
+    return flow;
+}
+
 Result<Water> makeWater(const SluiceWater& asked) {
     if (Status status = check(asked); !status) {
         return status.error();

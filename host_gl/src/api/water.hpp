@@ -22,6 +22,8 @@ struct Water {
 };
 
 [[nodiscard]] SluiceWater defaultWater();
+/// What it begins with.
+[[nodiscard]] SluiceFlow flowOf(const SluiceWater& water);
 
 /// Fills the blocks with particles two radii apart, without those inside a solid. Pure.
 [[nodiscard]] Result<Water> makeWater(const SluiceWater& asked);

@@ -72,6 +72,7 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Result<SluiceSimulationStats> simulationStats() override;
     [[nodiscard]] Result<SluiceBodies> simulationBodies(std::uint64_t value) override;
     [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget& target) override;
+    [[nodiscard]] Status setFlow(const SluiceFlow& flow) override;
     [[nodiscard]] Status submit(const Screen& screen, const FrameInput& asked) override {
         return caught([&]() -> Status {
             ++without_fluid_;
@@ -154,7 +155,8 @@ class RecoveringHost final : public FluidHost {
     FaultInjector faults_;
     Recovery recovery_;
     KeptScene scene_;
-    SluiceRendererInfo info_{};  ///< of the present renderer, or else of the last
+    std::optional<SluiceFlow> flow_;  ///< of that simulation, if it was changed
+    SluiceRendererInfo info_{};       ///< of the present renderer, or else of the last
     std::unique_ptr<RendererLife> life_;
     std::uint64_t base_ = 0;             ///< numbers that earlier renderers have spent
     std::uint64_t asked_ = 0;            ///< last value of simulate

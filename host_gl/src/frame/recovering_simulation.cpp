@@ -12,6 +12,7 @@ Status RecoveringHost::setSimulation(const SluiceSimulation* simulation) {
         if (refused(status)) {
             scene_.keep(static_cast<const SluiceSimulation*>(nullptr));  // on failure there is none
         }
+        flow_.reset();
         asked_ = 0;
         simulation_base_ = 0;
         simulation_dropped_ = false;
@@ -98,8 +99,25 @@ Status RecoveringHost::setBody(std::uint32_t body, const SluiceBodyTarget& targe
     });
 }
 
+Status RecoveringHost::setFlow(const SluiceFlow& flow) {
+    return caught([&]() -> Status {
+        if (simulation_dropped_) {
+            return {};
+        }
+        Status status = recovery_.down() ? Status{} : judged(life_->setFlow(flow));
+        if (!refused(status)) {
+            flow_ = flow;
+        }
+        return status;
+    });
+}
+
 Status RecoveringHost::simulateAgain(const SluiceSimulation& simulation) {
-    if (Status status = life_->setSimulation(&simulation); !status || asked_ == 0) {
+    Status status = life_->setSimulation(&simulation);
+    if (status && flow_) {
+        status = life_->setFlow(*flow_);
+    }
+    if (!status || asked_ == 0) {
         return status;
     }
     simulation_base_ = asked_ - 1;

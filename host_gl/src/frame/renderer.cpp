@@ -220,6 +220,16 @@ Status Renderer::setBody(std::uint32_t body, const SluiceBodyTarget& target) con
     return statusOf("set_body", result, said);
 }
 
+Status Renderer::setFlow(const SluiceFlow& flow) const {
+    if (api_->set_flow == nullptr) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("renderer {}", api_->name), "does not know set_flow",
+                     "use a newer plugin"};
+    }
+    auto said = sized<SluiceError>();
+    const SluiceResult result = api_->set_flow(handle_, &flow, &said);
+    return statusOf("set_flow", result, said);
+}
+
 Status Renderer::submit(const SluiceFrame& frame) const {
     auto said = sized<SluiceError>();
     const SluiceResult result = api_->submit_frame(handle_, &frame, &said);

@@ -128,6 +128,11 @@ Status RendererLife::setBody(std::uint32_t body, const SluiceBodyTarget& target)
     return given(link_.renderer.setBody(body, target));
 }
 
+Status RendererLife::setFlow(const SluiceFlow& flow) {
+    const auto scope = watch_.during("set_flow", 0);
+    return given(link_.renderer.setFlow(flow));
+}
+
 Result<SluiceFrameStats> RendererLife::stats(std::uint64_t frame) {
     const auto scope = watch_.during("poll", frame, link_.config.wait_timeout_ns);
     Result<SluiceFrameStats> stats = link_.renderer.stats(frame, link_.config.wait_timeout_ns);

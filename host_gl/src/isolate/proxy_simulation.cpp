@@ -133,6 +133,18 @@ SluiceResult setBody(SluiceRenderer* renderer, std::uint32_t body, const SluiceB
     });
 }
 
+SluiceResult setFlow(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (Status status = checkAbiStruct(flow, "flow"); !status) {
+            return status;
+        }
+        return simply(*of(renderer)->process, isolate::SetFlow{{}, readAbiStruct(*flow)}, "set_flow", {});
+    });
+}
+
 }  // namespace
 
 void addSimulation(SluiceRendererApi& table) {
@@ -142,6 +154,7 @@ void addSimulation(SluiceRendererApi& table) {
     table.simulation_stats = simulationStats;
     table.simulation_bodies = simulationBodies;
     table.set_body = setBody;
+    table.set_flow = setFlow;
 }
 
 }  // namespace sluice::host::proxy

@@ -73,6 +73,8 @@ inline constexpr std::size_t kAbiMinimum<SluiceBodies> = offsetof(SluiceBodies, 
 template <>
 inline constexpr std::size_t kAbiMinimum<SluiceBodyTarget> = offsetof(SluiceBodyTarget, turn) +
                                                              sizeof(SluiceBodyTarget::turn);
+template <>
+inline constexpr std::size_t kAbiMinimum<SluiceFlow> = offsetof(SluiceFlow, emitters) + sizeof(SluiceFlow::emitters);
 
 /// An empty T that says its size.
 template <typename T>

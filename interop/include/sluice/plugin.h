@@ -549,6 +549,16 @@ typedef struct SluiceBodyTarget {
     float turn[4]; /* quaternion x, y, z, w of any length but 0 */
 } SluiceBodyTarget;
 
+/* Since ABI 1.2. What may change while a fluid flows; all of it as in SluiceSimulation. */
+typedef struct SluiceFlow {
+    uint32_t struct_size;
+    uint32_t iterations;
+    float gravity[3];
+    float viscosity, vorticity, tension, adhesion;
+    uint32_t emitter_count; /* at most as many as SluiceSimulation had; those beyond are shut */
+    SluiceEmitter emitters[SLUICE_MAX_EMITTERS];
+} SluiceFlow;
+
 /* ------------------------------------------------------------------------------------------------- statistics -- */
 
 typedef struct SluicePassStats {
@@ -686,6 +696,10 @@ typedef struct SluiceRendererApi {
      * next: it goes there straight on, and pushes the fluid. Without a call it stays where it is. */
     SluiceResult (*set_body)(SluiceRenderer* renderer, uint32_t body, const SluiceBodyTarget* target,
                              SluiceError* error);
+
+    /* How the fluid flows from the value on that simulate is called with next. What is wrong is refused, and all stays
+     * as it was. A first tension or vorticity, and another axis of gravity, take the time of compiling passes. */
+    SluiceResult (*set_flow)(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceError* error);
 } SluiceRendererApi;
 
 /* The one exported symbol. Returns NULL when abi_version's major is not served. */

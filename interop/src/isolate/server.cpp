@@ -139,6 +139,17 @@ class Server {
             moves(error) ? api_.set_body(renderer_, call.body, &call.target, &error) : SLUICE_ERROR_UNSUPPORTED;
         return said(result, error);
     }
+    Message handle(const SetFlow& call, UniqueFd& /*with*/) {
+        auto error = sized<SluiceError>();
+        SluiceResult result = SLUICE_ERROR_UNSUPPORTED;
+        if (api_.set_flow != nullptr) {
+            result = api_.set_flow(renderer_, &call.flow, &error);
+        } else {
+            writeAbiError(&error,
+                          {SLUICE_ERROR_UNSUPPORTED, "the plugin", "does not know set_flow", "use a newer one"});
+        }
+        return said(result, error);
+    }
     Message handle(const SubmitFrame& call, UniqueFd& /*with*/) {
         auto error = sized<SluiceError>();
         if (carriers_) {

@@ -45,7 +45,7 @@ LiveSimulation::LiveSimulation(const RendererTimeline& timeline, const Tracer& t
       longest_step_(setup.longest_step),
       most_particles_(setup.most_particles),
       shaped_(setup.anisotropy.has_value()),
-      bodies_(setup.settings.bodies),
+      settings_(setup.settings),
       reports_(setup.frames_in_flight + 1, startsOf(setup.settings.bodies)),
       readers_(setup.frames_in_flight + 1),
       living_(setup.frames_in_flight + 1) {
@@ -146,19 +146,35 @@ Status LiveSimulation::simulate(std::uint64_t value, double seconds) {
         return Error{SLUICE_ERROR_INTERNAL, "simulate", "the simulation's thread has ended",
                      "call set_simulation again"};
     }
-    requests_.push_back({value, seconds, std::exchange(asked_, {})});
+    requests_.push_back({value, seconds, std::exchange(asked_, {}), std::move(flow_)});
     stats_.asked = value;
     changed_.notify_all();
     return {};
 }
 
 Status LiveSimulation::setBody(const BodyTarget& target) {
-    if (target.body >= bodies_.size() || !bodies_[target.body].driven) {
+    if (target.body >= settings_.bodies.size() || !settings_.bodies[target.body].driven) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "set_body",
-                     fmt::format("body {} of {} is none that is driven", target.body, bodies_.size()),
+                     fmt::format("body {} of {} is none that is driven", target.body, settings_.bodies.size()),
                      "give it the motion SLUICE_BODY_DRIVEN"};
     }
     asked_.push_back(target);
+    return {};
+}
+
+Status LiveSimulation::setFlow(const FlowSettings& flow) {
+    if (flow.emitters.size() > settings_.sources.emitters.size()) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "flow.emitters",
+                     fmt::format("expected at most the {} of set_simulation, found {}",
+                                 settings_.sources.emitters.size(), flow.emitters.size()),
+                     "begin with as many, and shut them"};
+    }
+    SimulationSettings changed = settings_;
+    apply(flow, changed);
+    if (Status status = checkSettings(changed); !status) {
+        return status;
+    }
+    flow_ = std::make_unique<FlowSettings>(flow);
     return {};
 }
 
@@ -297,6 +313,11 @@ Status LiveSimulation::advance(const Request& request) {
         const std::lock_guard lock(mutex_);
         if (stats_.failed != 0) {
             return {};  // the last good state it is, from now on
+        }
+    }
+    if (request.flow) {
+        if (Status status = solver_->setFlow(*request.flow); !status) {
+            return status;
         }
     }
     targets_.insert(targets_.end(), request.targets.begin(), request.targets.end());

@@ -57,8 +57,8 @@ struct SimulatedFluid {
 
 /// The solver looks at every step's outcome before the next one, so it needs a thread; that thread is the only one that
 /// uses the solver. Value v waits for the frames that drew value v - slots, which nobody may draw any more once v has
-/// been asked for. Pinned; device and timeline must outlive it. simulate(), setBody(), fluid() and drawn() on the
-/// renderer's thread.
+/// been asked for. Pinned; device and timeline must outlive it. simulate(), setBody(), setFlow(), fluid() and drawn()
+/// on the renderer's thread.
 class LiveSimulation {
   public:
     static Result<std::unique_ptr<LiveSimulation>> create(const Device& device, const RendererTimeline& timeline,
@@ -73,6 +73,8 @@ class LiveSimulation {
     [[nodiscard]] Status simulate(std::uint64_t value, double seconds);
     /// At the end of the value that simulate() is called with next.
     [[nodiscard]] Status setBody(const BodyTarget& target);
+    /// From that value on.
+    [[nodiscard]] Status setFlow(const FlowSettings& flow);
     /// Refused if `value` was not asked for or its slot may be overwritten. Where the device has one queue this waits
     /// until the last work of `value` has been submitted: behind a frame that waits for it, it would never run. Fails
     /// after FrameRing::kPatienceNs.
@@ -101,6 +103,7 @@ class LiveSimulation {
         std::uint64_t value;
         double seconds;
         std::vector<BodyTarget> targets;
+        std::unique_ptr<FlowSettings> flow;  ///< may be none
     };
 
     [[nodiscard]] Status start(const LiveSetup& setup);
@@ -124,15 +127,16 @@ class LiveSimulation {
     double longest_step_;
     std::uint32_t most_particles_;
     bool shaped_;
-    std::vector<Body> bodies_;  ///< as they were given
+    SimulationSettings settings_;  ///< as they were given
     BodyReports reports_;
     VkSemaphore semaphore_ = VK_NULL_HANDLE;
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<OutputSlots> slots_;
 
-    double owed_ = 0.0;                ///< s, asked for and too little for a step; the thread's
-    std::vector<BodyTarget> targets_;  ///< likewise of values without a step
-    std::vector<BodyTarget> asked_;    ///< by setBody() since the last simulate(); the renderer's thread's
+    double owed_ = 0.0;                   ///< s, asked for and too little for a step; the thread's
+    std::vector<BodyTarget> targets_;     ///< likewise of values without a step
+    std::vector<BodyTarget> asked_;       ///< by setBody() since the last simulate(); the renderer's thread's
+    std::unique_ptr<FlowSettings> flow_;  ///< by setFlow(), likewise
 
     mutable std::mutex mutex_;  ///< guards all below
     mutable std::condition_variable changed_;

@@ -282,7 +282,8 @@ constexpr SluiceRendererApi kApi = {sizeof(SluiceRendererApi),
                                     simulationWait,
                                     simulationStats,
                                     simulationBodies,
-                                    setBody};
+                                    setBody,
+                                    setFlow};
 
 }  // namespace
 

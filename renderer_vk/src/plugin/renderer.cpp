@@ -186,6 +186,10 @@ Status SluiceRenderer::setBody(const BodyTarget& target) {
     return simulation_ ? simulation_->setBody(target) : Status{noSimulation("set_body")};
 }
 
+Status SluiceRenderer::setFlow(const FlowSettings& flow) {
+    return simulation_ ? simulation_->setFlow(flow) : Status{noSimulation("set_flow")};
+}
+
 Result<FrameFluid> SluiceRenderer::fluidOf(const SluiceFrame& frame) {
     if (frame.simulation == 0) {
         return FrameFluid{particles_, {}};

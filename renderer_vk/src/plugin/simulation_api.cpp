@@ -97,4 +97,14 @@ SluiceResult setBody(SluiceRenderer* renderer, std::uint32_t body, const SluiceB
     });
 }
 
+SluiceResult setFlow(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        const Result<FlowSettings> to = readFlow(flow);
+        return to ? renderer->setFlow(to.value()) : Status{to.error()};
+    });
+}
+
 }  // namespace sluice::vk

@@ -16,5 +16,6 @@ namespace sluice::vk {
 [[nodiscard]] SluiceResult simulationBodies(SluiceRenderer* renderer, std::uint64_t value, SluiceBodies* bodies);
 [[nodiscard]] SluiceResult setBody(SluiceRenderer* renderer, std::uint32_t body, const SluiceBodyTarget* target,
                                    SluiceError* error);
+[[nodiscard]] SluiceResult setFlow(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceError* error);
 
 }  // namespace sluice::vk

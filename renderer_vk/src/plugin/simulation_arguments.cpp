@@ -145,4 +145,24 @@ Result<BodyTarget> readTarget(std::uint32_t body, const SluiceBodyTarget* target
     return to;
 }
 
+Result<FlowSettings> readFlow(const SluiceFlow* flow) {
+    if (Status status = checkAbiStruct(flow, "flow"); !status) {
+        return status.error();
+    }
+    const SluiceFlow given = readAbiStruct(*flow);
+    if (given.emitter_count > SLUICE_MAX_EMITTERS) {
+        return invalid("flow.emitters",
+                       fmt::format("expected at most {}, found {}", SLUICE_MAX_EMITTERS, given.emitter_count));
+    }
+    auto emitters = sized<SluiceSimulation>();
+    emitters.emitter_count = given.emitter_count;
+    emitters.emitters = &given.emitters[0];
+    SourceSettings sources;
+    if (Status status = readSources(emitters, sources); !status) {
+        return status.error();
+    }
+    return FlowSettings{given.iterations, triple(given.gravity),      given.viscosity, given.vorticity, given.tension,
+                        given.adhesion,   std::move(sources.emitters)};
+}
+
 }  // namespace sluice::vk

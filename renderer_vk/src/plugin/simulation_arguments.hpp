@@ -12,5 +12,6 @@ namespace sluice::vk {
 /// is the solver's to say.
 [[nodiscard]] Result<LiveSetup> readSimulation(const SluiceSimulation* simulation);
 [[nodiscard]] Result<BodyTarget> readTarget(std::uint32_t body, const SluiceBodyTarget* target);
+[[nodiscard]] Result<FlowSettings> readFlow(const SluiceFlow* flow);
 
 }  // namespace sluice::vk

@@ -49,6 +49,7 @@ struct Features {
     bool seen = false;             ///< a depth field
     bool fluids = false;           ///< several, each with its own density
     std::uint32_t depth_axis = 1;  ///< along which depth is measured, where it is
+    bool operator==(const Features&) const = default;
 };
 
 [[nodiscard]] const char* kernelName(Kernel kernel);

@@ -95,6 +95,16 @@ bool SimulationSettings::tense() const {
                             });
 }
 
+void apply(const FlowSettings& flow, SimulationSettings& settings) {
+    settings.iterations = flow.iterations;
+    settings.gravity = flow.gravity;
+    settings.viscosity = flow.viscosity;
+    settings.vorticity = flow.vorticity;
+    settings.tension = flow.tension;
+    settings.adhesion = flow.adhesion;
+    settings.sources.emitters = flow.emitters;
+}
+
 std::vector<Solid> solidsWithin(const SimulationSettings& settings) {
     const double slack = 1e-3 * double{settings.radius};
     std::vector<Solid> within;

@@ -46,6 +46,16 @@ struct SimulationSettings {
     [[nodiscard]] float support() const { return 4.0F * radius; }
 };
 
+/// What may change while a fluid flows.
+struct FlowSettings {
+    std::uint32_t iterations = 4;
+    Triple gravity{0, -9.81F, 0};
+    float viscosity = 0.02F, vorticity = 0.0F, tension = 0.0F, adhesion = 0.0F;
+    std::vector<Emitter> emitters;
+};
+/// The settings with that in them.
+void apply(const FlowSettings& flow, SimulationSettings& settings);
+
 /// The solids that reach into the domain. The others, such as a floor that is the domain's own lower face, would only
 /// count that face twice.
 [[nodiscard]] std::vector<Solid> solidsWithin(const SimulationSettings& settings);

@@ -44,6 +44,19 @@ std::vector<Solid> wallsOf(const SimulationSettings& s) {
     return walls;
 }
 
+Features featuresOf(const SimulationSettings& s) {
+    return {s.vorticity > 0.0F, !s.sources.fields.empty(), !s.bodies.empty(), s.tense(),
+            s.meshed(),         s.seen != nullptr,         !s.fluids.empty(), deepestAxis(s)};
+}
+
+double fastestJet(const SimulationSettings& s) {
+    double most = 0.0;
+    for (const Emitter& emitter : s.sources.emitters) {
+        most = std::max(most, double{emitter.speed});
+    }
+    return most;
+}
+
 }  // namespace
 
 Solver::Solver(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -58,10 +71,7 @@ Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const Simul
     state->sources = sourceBlock(settings.sources);
     state->walls = wallsOf(settings);
     state->restartBodies();
-    Result<Kernels> kernels =
-        Kernels::create(device, {settings.vorticity > 0.0F, !settings.sources.fields.empty(), !settings.bodies.empty(),
-                                 state->settings.tense(), settings.meshed(), settings.seen != nullptr,
-                                 !state->settings.fluids.empty(), deepestAxis(settings)});
+    Result<Kernels> kernels = Kernels::create(device, featuresOf(state->settings));
     if (!kernels) {
         return kernels.error();
     }
@@ -121,10 +131,7 @@ Status Solver::setParticles(std::span<const float> positions, std::span<const fl
     s.time = 0.0;
     s.depth = 0.0;
     s.restartBodies();
-    s.speed = std::max(fastest(velocities), fastestPoint(s.settings.bodies, s.bodies));
-    for (const Emitter& emitter : s.settings.sources.emitters) {
-        s.speed = std::max(s.speed, double{emitter.speed});
-    }
+    s.speed = std::max({fastest(velocities), fastestPoint(s.settings.bodies, s.bodies), fastestJet(s.settings)});
     return uploadParticles(s.device, s.buffers, positions, velocities, fluids);
 }
 
@@ -230,6 +237,35 @@ void Solver::drive(std::size_t body, const Vector& centre, const std::array<doub
     state.velocity = vk::times(1.0 / seconds, minus(drive.to, drive.from));
     state.spin = drive.spin;
     s.speed = std::max(s.speed, fastestPoint(s.settings.bodies, s.bodies));
+}
+
+Status Solver::setFlow(const FlowSettings& flow) {
+    State& s = *state_;
+    SimulationSettings changed = s.settings;
+    apply(flow, changed);
+    if (const Status status = checkSettings(changed); !status) {
+        return status;
+    }
+    if (!flow.emitters.empty() && !s.opened) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation: emitters", "it was begun without one",
+                     "begin it with an emitter, and shut that"};
+    }
+    if (featuresOf(changed) != featuresOf(s.settings)) {
+        Result<Kernels> kernels = Kernels::create(s.device, featuresOf(changed));
+        if (!kernels) {
+            return kernels.error();
+        }
+        s.kernels = std::move(kernels).value();
+        if (s.buffers.particles > 0) {
+            s.kernels.bind(s.buffers, s.meshes, s.seen_by);
+        }
+        s.depth = 0.0;  // along another axis it is not known
+        s.measurable = false;
+    }
+    s.settings = std::move(changed);
+    s.sources = sourceBlock(s.settings.sources);
+    s.speed = std::max(s.speed, fastestJet(s.settings));
+    return {};
 }
 
 std::uint32_t Solver::count() const {

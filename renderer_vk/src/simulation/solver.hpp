@@ -117,6 +117,8 @@ class Solver {
     [[nodiscard]] Result<ParticleState> read() const;
     /// Sends a driven body straight on to another place, where it is after `seconds` > 0 more of simulated time.
     void drive(std::size_t body, const Vector& centre, const std::array<double, 4>& turn, double seconds);
+    /// For the steps to come. Emitters only if there was one at the start. Refused, all stays as it was.
+    [[nodiscard]] Status setFlow(const FlowSettings& flow);
     /// Bodies in the order of the settings, after the last step: pose, motion, and what the fluid did to them in it.
     [[nodiscard]] std::span<const BodyState> bodies() const;
     /// Density of each particle that the last step moved, in densities of rest; walls count as fluid at rest. Who was

@@ -33,10 +33,12 @@ struct Surroundings {
 };
 
 struct Solver::State {
-    State(const Device& on, SimulationSettings with) : device(on), settings(std::move(with)), timer(on) {}
+    State(const Device& on, SimulationSettings with)
+        : device(on), settings(std::move(with)), opened(!settings.sources.emitters.empty()), timer(on) {}
 
     const Device& device;
     SimulationSettings settings;
+    bool opened;  ///< there were emitters at the start: somebody may come, even if all are shut now
     Grid grid;
     Kernels kernels;
     SimulationBuffers buffers;
@@ -62,9 +64,7 @@ struct Solver::State {
 
     /// A drain may have taken all, and an emitter not have given any yet.
     [[nodiscard]] bool ready() const { return counts.living > 0 || (changing() && planned > 0); }
-    [[nodiscard]] bool changing() const {
-        return !settings.sources.emitters.empty() || !settings.sources.drains.empty();
-    }
+    [[nodiscard]] bool changing() const { return opened || !settings.sources.drains.empty(); }
     void restartBodies() {
         bodies.clear();
         for (const Body& body : settings.bodies) {

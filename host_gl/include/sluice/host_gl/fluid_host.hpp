@@ -98,6 +98,8 @@ class FluidHost {
     [[nodiscard]] virtual Result<SluiceBodies> simulationBodies(std::uint64_t value) = 0;
     /// Where a driven body is to be at the end of the value that is asked for next.
     [[nodiscard]] virtual Status setBody(std::uint32_t body, const SluiceBodyTarget& target) = 0;
+    /// How the fluid flows from the value on that is asked for next.
+    [[nodiscard]] virtual Status setFlow(const SluiceFlow& flow) = 0;
 
     /// Copies colour and depth of the screen into the next image set on the GPU, signals, and submits frame k.
     /// On failure the host's frame is untouched and the next call starts a new frame.

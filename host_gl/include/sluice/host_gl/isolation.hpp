@@ -20,7 +20,7 @@ struct IsolationConfig {
     /// and the call says so. 1 ms to 24 h; what lies outside is taken as the nearer of the two.
     std::uint64_t call_timeout_ns = 60'000'000'000ULL;
     /// The same for the calls that a frame makes: submit_frame, poll, timeline_value, timeline_export, simulate,
-    /// simulation_stats, simulation_bodies and set_body. 0, or more than the other: as the other.
+    /// simulation_stats, simulation_bodies, set_body and set_flow. 0, or more than the other: as the other.
     std::uint64_t frame_call_timeout_ns = 0;
     /// Asked several times a second by the thread that waits in a call; may be empty. Once it says yes, the call may
     /// take 2 s more. It must not throw.

@@ -213,6 +213,15 @@ struct SetBody : Carries<0, 0> {
     }
 };
 
+struct SetFlow : Carries<0, 0> {
+    static constexpr std::string_view kName = "set_flow";
+    SluiceFlow flow{};
+    template <typename Io, typename Self>
+    static void fields(Io& io, Self& m) {
+        io.abi(m.flow);
+    }
+};
+
 // ---- renderer to host.
 
 /// The answer to Hello: what the plugin is.
@@ -333,7 +342,7 @@ struct Answer : Carries<0, 0> {
 using Message = std::variant<Hello, Describe, Explain, Create, Info, Resize, SetParticles, SetEnvironment, SubmitFrame,
                              Poll, TimelineValue, TimelineExport, ProbeFormat, Destroy, Welcome, Returned, Log,
                              TraceEvents, Line, ShareImage, RetireImage, Canary, Answer, SetSimulation, Simulate,
-                             SimulationStats, SimulationBodies, SetBody>;
+                             SimulationStats, SimulationBodies, SetBody, SetFlow>;
 
 [[nodiscard]] std::string_view nameOf(const Message& message);
 
