@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT
 # SLUICE_PCH: the headers that most files include are read once for each set of flags and not once for each file. With clang 14
-# that takes a third off the libraries and two fifths off the tests; gcc 12 gains a fifth. The presets asan and fuzz set it;
+# that takes a third off the libraries and two fifths off the tests; gcc 12 gains a fifth. The sanitized presets set it;
 # the default build does without, so that it goes on proving that every file includes what it uses.
 option(SLUICE_PCH "Precompile the headers that most files include (needs clang)" OFF)
 if(NOT SLUICE_PCH)
