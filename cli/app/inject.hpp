@@ -2,13 +2,16 @@
 // sluice inject: fluid in a program that knows nothing of it.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "payload/settings.hpp"
 #include "sluice/result.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace sluice::cli {
 

@@ -94,6 +94,7 @@ void readWater(scene::ObjectReader& from, inject::WaterPlan& water) {
     std::vector<scene::Emitter> emitters;
     from.list("emitters", emitters, [](scene::ObjectReader& e, scene::Emitter& emitter) { visitEmitter(e, emitter); });
     addEmitters(emitters, water);
+    from.integer("from_frame", water.from_frame, 0, 1'000'000'000);
     from.integer("max_particles", water.max_particles, 0, 1'000'000);
     if (std::all_of(water.up.begin(), water.up.end(), [](float value) { return value == 0.0F; })) {
         from.fail("up", "a direction", "[0, 0, 0]");

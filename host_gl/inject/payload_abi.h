@@ -51,6 +51,7 @@ typedef struct SluiceInjectPayload {
     void (*matrix_mode)(uint32_t mode);
     void (*matrix_changed)(void); /* after: the current matrix has another value, or may have */
     void (*matrix_pushed)(void);
+    void (*matrix_popped)(void);
     void (*use_program)(uint32_t program);
     void (*uniform_matrix)(uint32_t program, int32_t location, int32_t count, uint32_t transpose, const float* value);
     void (*bind_framebuffer)(uint32_t target, uint32_t framebuffer);

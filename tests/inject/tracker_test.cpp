@@ -25,11 +25,8 @@ class Fixed {
         model_view_ = matrix;
         tracker_.matrixChanged();
     }
-    void push() {
-        if (tracker_.wantsPushedView()) {
-            tracker_.pushedView(model_view_);
-        }
-    }
+    void push() { tracker_.pushedView(tracker_.wantsPushedView() ? model_view_ : kIdentity); }
+    void pop() { tracker_.popped(); }
     bool draw(std::uint32_t vertices) {
         if (tracker_.wantsMatrices()) {
             ++asked_;
@@ -133,11 +130,40 @@ TEST(FrameTracker, TheViewIsThePushBeforeTheFirstDrawElseThatDrawsModelView) {
     (void)fixed.draw(100);
     ASSERT_TRUE(tracker.camera());
     EXPECT_NEAR(tracker.camera()->view[12], view[12], 1e-4F);
+    fixed.pop();
     tracker.endFrame();
     fixed.model(view);
     (void)fixed.draw(100);
     EXPECT_NEAR(tracker.camera()->view[14], view[14], 1e-4F);
     EXPECT_EQ(tracker.camera()->view_source, "model-view matrix at the first draw");
+}
+
+TEST(FrameTracker, ASkyThatGoesWithTheEyeDoesNotPassForTheView) {
+    const Matrix view = product(turn(20), translation(0, -1, -9));
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    fixed.project(kLens);
+    fixed.model(kIdentity);
+    fixed.push();
+    fixed.model(view);
+    fixed.push();
+    fixed.model(turn(20));
+    fixed.push();
+    (void)fixed.draw(100);  // the sky
+    fixed.pop();
+    fixed.pop();
+    fixed.model(view);
+    for (int body = 0; body < 3; ++body) {
+        fixed.push();
+        fixed.model(product(view, translation(static_cast<float>(body), 0, 0)));
+        (void)fixed.draw(500);
+        fixed.pop();
+        fixed.model(view);
+    }
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_EQ(tracker.camera()->view_source, "lowest model-view matrix on the stack");
+    EXPECT_NEAR(tracker.camera()->view[14], view[14], 1e-4F);
+    EXPECT_GT(tracker.camera()->view_confidence, 0.8);
 }
 
 TEST(FrameTracker, AProjectionThatIsSetOnceIsStillAskedForOncePerFrame) {

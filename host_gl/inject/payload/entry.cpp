@@ -159,6 +159,10 @@ void matrixPushed() {
     withSession([](Session& at) { at.matrixPushed(); });
 }
 
+void matrixPopped() {
+    withSession([](Session& at) { at.tracker().popped(); });
+}
+
 void useProgram(std::uint32_t program) {
     withSession([&](Session& at) { at.tracker().useProgram(program); });
 }
@@ -205,6 +209,7 @@ const SluiceInjectPayload kTable{sizeof(SluiceInjectPayload),
                                  matrixMode,
                                  matrixChanged,
                                  matrixPushed,
+                                 matrixPopped,
                                  useProgram,
                                  uniformMatrix,
                                  bindFramebuffer,

@@ -156,11 +156,11 @@ void Session::uniform(std::uint32_t program, std::int32_t location, const Matrix
 }
 
 void Session::matrixPushed() {
+    Matrix model_view = kIdentity;
     if (facts_.compatibility && tracker_.wantsPushedView()) {
-        Matrix model_view{};
         payload_.gl.getFloatv(GL_MODELVIEW_MATRIX, model_view.data());
-        tracker_.pushedView(model_view);
     }
+    tracker_.pushedView(model_view);
 }
 
 void Session::beforeDraw(std::uint32_t vertices) {
@@ -245,7 +245,8 @@ double Session::time() const {
 void Session::composeNow() {
     composed_ = true;
     const std::optional<FoundCamera> camera = tracker_.camera();
-    if (payload_.settings.off || !failure_.empty() || facts_.embedded || !camera || size_.width == 0) {
+    if (payload_.settings.off || frames_ < payload_.settings.water.from_frame || !failure_.empty() || facts_.embedded ||
+        !camera || size_.width == 0) {
         return;
     }
     const Timed timed(in_frame_);

@@ -93,6 +93,8 @@ void readWater(std::string_view key, Words& line, WaterPlan& water) {
         }
     } else if (key == "water.most") {
         line.read(water.max_particles);
+    } else if (key == "water.from") {
+        line.read(water.from_frame);
     } else if (key == "water.world") {
         water.in_view = false;
     } else if (key == "water.units") {
@@ -171,6 +173,7 @@ std::string printWater(const WaterPlan& water) {
     for (const SluiceEmitter& emitter : water.emitters) {
         text += fmt::format("water.emitter {}\n", words(emitter));
     }
+    text += water.from_frame == 0 ? "" : fmt::format("water.from {}\n", water.from_frame);
     text += water.max_particles == 0 ? "" : fmt::format("water.most {}\n", water.max_particles);
     return text;
 }

@@ -33,6 +33,7 @@ struct WaterPlan {
     float viscosity = 0.02F, vorticity = 0;
     std::vector<WaterBlock> blocks;  ///< none, and no emitter: a column at the left wall
     std::vector<SluiceEmitter> emitters;
+    std::uint32_t from_frame = 0;     ///< before it there is no fluid, and the eye of that frame is the first
     std::uint32_t max_particles = 0;  ///< at which emitters stop; 0: the library's choice
 };
 

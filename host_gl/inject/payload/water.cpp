@@ -145,10 +145,12 @@ class LibraryWater final : public Water {
         if (fluid_ != nullptr && api_.statistics(fluid_, &statistics) == SLUICE_OK) {
             report_.frames = statistics.frames;
             report_.frames_without = statistics.frames_without;
-            report_.steps = statistics.steps;
-            report_.particles = statistics.particles;
-            report_.renderers = statistics.renderers;
-            report_.device = &statistics.device[0];
+            if (statistics.renderers != 0) {  // none can be asked once the context is no longer current
+                report_.steps = statistics.steps;
+                report_.particles = statistics.particles;
+                report_.renderers = statistics.renderers;
+                report_.device = &statistics.device[0];
+            }
             report_.capture_s = statistics.capture_seconds;
             report_.hand_off_s = statistics.hand_over_seconds;
             report_.fluid_s = statistics.fluid_seconds;

@@ -62,7 +62,7 @@ MATRIX(glScalef, (float x, float y, float z), (x, y, z))
 MATRIX(glRotated, (double angle, double x, double y, double z), (angle, x, y, z))
 MATRIX(glTranslated, (double x, double y, double z), (x, y, z))
 MATRIX(glScaled, (double x, double y, double z), (x, y, z))
-MATRIX(glPopMatrix, (void), ())
+AFTER(glPopMatrix, (void), (), matrix_popped())
 BEFORE(glPushMatrix, (void), (), matrix_pushed())
 
 AFTER(glUseProgram, (uint32_t program), (program), use_program(program))

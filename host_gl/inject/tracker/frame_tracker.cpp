@@ -11,6 +11,8 @@ namespace {
 // Nobody knows what is in a display list or between glBegin and glEnd; a list stands for a mesh.
 constexpr std::uint64_t kUnknownVertices = 24;
 constexpr std::size_t kMostLenses = 16;
+constexpr std::uint32_t kMostPushes = 512;  // of a frame, that are asked for their matrix
+constexpr std::size_t kMostLevels = 64;     // OpenGL has 32 at least, and seldom more
 constexpr std::size_t kMostReasons = 16;
 
 }  // namespace
@@ -37,11 +39,44 @@ void FrameTracker::compileList(bool compiling) {
 }
 
 bool FrameTracker::wantsPushedView() const {
-    return mode_model_view_ && fixed_dirty_ && !compiling_ && framebuffer_ == target_;
+    return mode_model_view_ && !compiling_ && framebuffer_ == target_ && pushes_ < kMostPushes;
 }
 
 void FrameTracker::pushedView(const Matrix& model_view) {
-    pushed_ = model_view;
+    if (!mode_model_view_ || compiling_) {
+        return;
+    }
+    ++pushes_;
+    if (fixed_dirty_) {
+        pushed_ = model_view;
+    }
+    if (stack_.size() < kMostLevels) {
+        stack_.push_back(model_view);
+    }
+}
+
+void FrameTracker::popped() {
+    if (mode_model_view_ && !compiling_ && !stack_.empty()) {
+        stack_.pop_back();
+    }
+    matrixChanged();
+}
+
+/// A camera is what everything is drawn on top of: the lowest matrix of the stack that is not the identity.
+void FrameTracker::countView(Group& group, std::uint64_t vertices) const {
+    const auto lowest = std::find_if(stack_.begin(), stack_.end(), [](const Matrix& m) { return !isIdentity(m); });
+    if (lowest == stack_.end()) {
+        return;
+    }
+    for (Candidate& candidate : group.views) {
+        if (candidate.matrix == *lowest) {
+            candidate.vertices += vertices;
+            return;
+        }
+    }
+    if (group.views.size() < kMostLenses) {
+        group.views.push_back({*lowest, vertices});
+    }
 }
 
 const FrameTracker::ProgramCamera* FrameTracker::programCamera() const {
@@ -110,20 +145,27 @@ void FrameTracker::viewOfFixed(Group& group) const {
     FoundCamera& camera = group.camera;
     const bool use_pushed =
         pushed_ && (rules_.view == ViewRule::Pushed || (rules_.view == ViewRule::Automatic && !isIdentity(*pushed_)));
-    const Rigid rigid = rigidPart(use_pushed ? *pushed_ : model_view_);
     camera.source = group.reading.pure ? "projection matrix" : "projection matrix that holds the view, too";
     camera.confidence = group.reading.pure ? 0.95 : 0.85;
+    camera.view_source =
+        use_pushed ? "model-view matrix at the push before the first draw" : "model-view matrix at the first draw";
+    camera.view_confidence = use_pushed ? 0.7 : 0.6;
+    takeView(group.reading, use_pushed ? *pushed_ : model_view_, camera);
+}
+
+void FrameTracker::takeView(const Reading& reading, const Matrix& model_view, FoundCamera& camera) {
+    const Rigid rigid = rigidPart(model_view);
     if (!rigid.valid) {
-        camera.view = group.reading.view;
+        camera.view = reading.view;
         camera.view_source = "none: the model-view matrix is not rigid";
         camera.view_confidence = 0.1;
         return;
     }
-    camera.view = product(group.reading.view, rigid.matrix);
-    camera.scale = group.reading.scale * rigid.scale;
-    camera.view_source =
-        use_pushed ? "model-view matrix at the push before the first draw" : "model-view matrix at the first draw";
-    camera.view_confidence = isIdentity(camera.view) ? 0.3 : use_pushed ? 0.8 : 0.6;
+    camera.view = product(reading.view, rigid.matrix);
+    camera.scale = reading.scale * rigid.scale;
+    if (isIdentity(camera.view)) {
+        camera.view_confidence = 0.3;
+    }
 }
 
 void FrameTracker::viewOfProgram(Group& group, const ProgramCamera& program) {
@@ -169,8 +211,12 @@ bool FrameTracker::draw(std::uint32_t vertices) {
         if (program != nullptr) {
             viewOfProgram(group, *program);
         } else {
+            group.fixed = true;
             viewOfFixed(group);
         }
+    }
+    if (group.fixed && rules_.view == ViewRule::Automatic) {
+        countView(group, count);
     }
     if (group.matrix_seen != version) {
         group.matrix_seen = version;
@@ -250,6 +296,13 @@ FoundCamera FrameTracker::describe(const Group& group) const {
     FoundCamera found = group.camera;
     found.lens = group.reading.lens;
     found.vertices = group.vertices;
+    const auto most = std::max_element(group.views.begin(), group.views.end(),
+                                       [](const Candidate& a, const Candidate& b) { return a.vertices < b.vertices; });
+    if (most != group.views.end() && 2 * most->vertices >= group.vertices && rigidPart(most->matrix).valid) {
+        found.view_source = "lowest model-view matrix on the stack";
+        found.view_confidence = 0.5 + 0.4 * static_cast<double>(most->vertices) / static_cast<double>(group.vertices);
+        takeView(group.reading, most->matrix, found);
+    }
     if (!group.reading.pure && group.matrices > 1 && found.confidence < 0.85) {
         // Matrices of several objects that agree on one lens are no accident.
         found.confidence += 0.08 * std::min(3U, group.matrices - 1);
@@ -296,6 +349,7 @@ void FrameTracker::endFrame() {
     scene_open_ = done_ = false;
     fixed_dirty_ = true;  // the model-view of the next frame's first draw is another one
     pushed_.reset();
+    pushes_ = 0;
 }
 
 }  // namespace sluice::inject

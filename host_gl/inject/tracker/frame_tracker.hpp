@@ -67,9 +67,10 @@ class FrameTracker {
     /// glMatrixMode: whether it is the projection, or the model-view, that the next calls change.
     void matrixMode(bool projection, bool model_view);
     void matrixChanged();
-    /// glPushMatrix: if true, give the model-view matrix to pushedView().
+    /// glPushMatrix: if true, give the model-view matrix to pushedView(); else pushedView(kIdentity) will do.
     [[nodiscard]] bool wantsPushedView() const;
     void pushedView(const Matrix& model_view);
+    void popped();
     /// Before a draw: if true, give both matrices of the fixed function to fixedMatrices() first.
     [[nodiscard]] bool wantsMatrices() const;
     void fixedMatrices(const Matrix& projection, const Matrix& model_view);
@@ -99,7 +100,14 @@ class FrameTracker {
     [[nodiscard]] const FrameSummary& lastFrame() const { return last_; }
 
   private:
+    /// What stood lowest on the stack while so much was drawn.
+    struct Candidate {
+        Matrix matrix;
+        std::uint64_t vertices = 0;
+    };
     struct Group {
+        bool fixed = false;
+        std::vector<Candidate> views;
         Reading reading;
         FoundCamera camera;
         std::uint64_t vertices = 0;
@@ -118,6 +126,8 @@ class FrameTracker {
     [[nodiscard]] bool boundary();
     Group& groupOf(const Reading& reading);
     void viewOfFixed(Group& group) const;
+    static void takeView(const Reading& reading, const Matrix& model_view, FoundCamera& camera);
+    void countView(Group& group, std::uint64_t vertices) const;
     static void viewOfProgram(Group& group, const ProgramCamera& program);
     [[nodiscard]] const Group* mainGroup() const;
     [[nodiscard]] FoundCamera describe(const Group& group) const;
@@ -130,6 +140,8 @@ class FrameTracker {
     std::optional<Reading> fixed_;
     Matrix model_view_ = kIdentity;
     std::optional<Matrix> pushed_;
+    std::vector<Matrix> stack_;
+    std::uint32_t pushes_ = 0;
     std::uint64_t fixed_version_ = 0;
     std::uint32_t program_ = 0, framebuffer_ = 0, target_ = 0;
     std::map<std::uint32_t, std::uint64_t>
