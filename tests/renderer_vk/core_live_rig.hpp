@@ -102,9 +102,10 @@ class LiveFluid : public ::testing::Test {
         return api().simulate(renderer->get(), value, seconds, &said);
     }
     /// Frame k with the fluid of `value`, and its colours.
-    std::vector<std::byte> draw(std::uint64_t k, std::uint64_t value) {
+    std::vector<std::byte> draw(std::uint64_t k, std::uint64_t value, std::uint32_t flags = 0) {
         SluiceFrame frame = frameOf(k, 2, SLUICE_VIEW_FLUID);
         frame.simulation = value;
+        frame.flags = flags;
         EXPECT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
         EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value), SLUICE_OK);
         EXPECT_EQ(api().timeline_wait(renderer->get(), k, kLong), SLUICE_OK);

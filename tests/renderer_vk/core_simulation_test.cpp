@@ -4,9 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
+#include <memory>
+#include <string>
 #include <vector>
 
 #include "core_live_rig.hpp"
+#include "live/seen_depths.hpp"
 
 namespace sluice::vk::test {
 namespace {
@@ -158,6 +162,96 @@ TEST(SharedBuffers, TheViewOfASecondQueueKnowsBothFamilies) {
     EXPECT_EQ(device.computeView()->sharingFamilies(), device.sharingFamilies());
     device.compute_family = 1;
     EXPECT_TRUE(device.computeView()->sharingFamilies().empty());
+}
+
+TEST(SeenDepths, EachValueHasTheDepthOfAFrameThatIsKnownByNumber) {
+    const auto made = [] { return std::make_shared<const Buffer>(); };
+    SeenDepths depths(2);
+    EXPECT_EQ(depths.sourceOf(1), 0U) << "nothing has been seen by then";
+    EXPECT_EQ(depths.sourceOf(2), 1U);
+    EXPECT_EQ(depths.sourceOf(3), 1U);
+    EXPECT_EQ(depths.sourceOf(9), 7U);
+    EXPECT_TRUE(depths.known(0));
+    EXPECT_FALSE(depths.known(1));
+    EXPECT_EQ(depths.at(0).buffer, nullptr);
+    const auto first = made();
+    depths.drawn(1, {first, 11});
+    EXPECT_TRUE(depths.known(1));
+    depths.drawn(1, {made(), 12});  // the same value once more, in a later frame
+    EXPECT_EQ(depths.at(1).buffer, first);
+    EXPECT_EQ(depths.at(1).signal, 11U);
+    depths.drawn(2, {});  // a frame that captures nothing
+    depths.passed(4);     // values that nobody draws
+    EXPECT_EQ(depths.at(4).buffer, first);
+    const auto fifth = made();
+    depths.drawn(5, {fifth, 15});
+    EXPECT_EQ(depths.at(4).buffer, first);
+    EXPECT_EQ(depths.at(5).buffer, fifth);
+    depths.forget(4);
+    EXPECT_EQ(first.use_count(), 2) << "4 still has it";
+    depths.forget(7);
+    EXPECT_EQ(first.use_count(), 1);
+    EXPECT_EQ(depths.at(7).buffer, fifth);
+}
+
+TEST_F(LiveFluid, WaitsForTheDepthOfTheFrameThatItCollidesWith) {
+    constexpr std::uint64_t kValues = 6;
+    for (const std::uint32_t in_flight : {1U, 2U, 3U}) {
+        Block block(in_flight);
+        block.simulation.depth_scale = 2;
+        block.simulation.depth_lag = in_flight == 3 ? 2 : 0;
+        ASSERT_NO_FATAL_FAILURE(start(block, true));
+        std::uint64_t asked = 0;
+        for (std::uint64_t k = 1; k <= kValues; ++k) {
+            for (; asked < std::min(kValues, k + in_flight - 1); ++asked) {
+                ASSERT_EQ(simulate(asked + 1, asked == 0 ? 0.0 : kFrame), SLUICE_OK) << said.message;
+            }
+            const bool captures = k != 4;
+            draw(k, k, captures ? std::uint32_t{SLUICE_FRAME_CAPTURE_DEPTH} : 0U);
+            const SluiceFrameStats of_frame = frameStats(k);
+            EXPECT_EQ(std::string(of_frame.passes[0].name) == "capture_depth", captures) << k;
+        }
+        EXPECT_EQ(frameStats(kValues).validation_messages, 0U);
+        EXPECT_EQ(stats().failed, 0U) << stats().message;
+        renderer->destroy();
+        std::map<std::uint64_t, std::uint64_t> waited;  // by value: the frame
+        std::uint64_t released = 0;
+        std::uint64_t acquired = 0;
+        for (const SeenEvent& seen : host->events()) {
+            if (seen.name == "depth captured") {
+                waited[seen.event.frame] = seen.event.value;
+            }
+            released += seen.name == "CAPTURED_DEPTH" && seen.event.kind == SLUICE_TRACE_RELEASE ? 1U : 0U;
+            acquired += seen.name == "CAPTURED_DEPTH" && seen.event.kind == SLUICE_TRACE_ACQUIRE ? 1U : 0U;
+        }
+        // Frame 4 has captured nothing: who needs it has what frame 3 left.
+        const std::map<std::uint64_t, std::uint64_t> lag_of_one{{2, 1}, {3, 2}, {4, 3}, {6, 5}};
+        const std::map<std::uint64_t, std::uint64_t> lag_of_two{{2, 1}, {4, 2}, {5, 3}};
+        EXPECT_EQ(waited, in_flight == 1 ? lag_of_one : lag_of_two) << in_flight;
+        EXPECT_EQ(acquired, waited.size());
+        EXPECT_EQ(released, kValues - 1);
+    }
+    Block bad;
+    ASSERT_NO_FATAL_FAILURE(start(bad));
+    const auto refused = [&](std::uint32_t scale, std::uint32_t lag, float thickness) {
+        bad.simulation.depth_scale = scale;
+        bad.simulation.depth_lag = lag;
+        bad.simulation.depth_thickness = thickness;
+        said = sized<SluiceError>();
+        return api().set_simulation(renderer->get(), &bad.simulation, &said);
+    };
+    EXPECT_EQ(refused(9, 0, 0.0F), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(refused(1, 2, 0.0F), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_EQ(refused(1, 0, 0.1F), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(said.message).find("0.1 m is outside [0.12 (4 radii)"), std::string::npos) << said.message;
+    ASSERT_EQ(refused(1, 0, 0.12F), SLUICE_OK);
+    ASSERT_EQ(simulate(1, 0.0), SLUICE_OK);
+    SluiceFrame stretched = frameOf(1, 2, SLUICE_VIEW_FLUID);
+    stretched.simulation = 1;
+    stretched.flags = SLUICE_FRAME_CAPTURE_DEPTH;
+    stretched.camera.view[0] *= 2.0F;
+    EXPECT_EQ(renderer->submit(stretched), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(renderer->error().message).find("frame.camera: expected a view"), std::string::npos);
 }
 
 TEST_F(LiveFluid, TellsEachStepAndEachSideOfTheHandOver) {

@@ -8,9 +8,11 @@
 #include <span>
 #include <utility>
 
+#include "device/commands.hpp"
 #include "device/one_shot.hpp"
 #include "device/structs.hpp"
 #include "memory/buffer.hpp"
+#include "passes/capture_depth.hpp"
 
 namespace sluice::vk::test {
 namespace {
@@ -206,6 +208,18 @@ RigResult PassRig::render(const RigScene& scene) {
                          want_normal ? fluid_normal.ref() : ImageRef{},
                          want_thickness ? fluid_thickness.ref() : ImageRef{},
                          scene.encoding};
+    DepthCapture capture;
+    Buffer captured;
+    if (scene.capture_scale != 0) {
+        auto made = Buffer::create(device, {captureBytes(scene.width, scene.height, scene.capture_scale),
+                                            VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::Readback, "rig captured"});
+        if (!made) {
+            result.failure = made.error().message();
+            return result;
+        }
+        captured = std::move(made).value();
+        capture = {captured.buffer(), scene.capture_scale, 0.25F};
+    }
     RigTimer timer(device);
     if (!rig.failure.empty()) {
         result.failure = rig.failure;
@@ -220,7 +234,9 @@ RigResult PassRig::render(const RigScene& scene) {
         recorded = recorder_->record(commands, frame, result.plan, targets,
                                      {particles.value().buffer(), needs.particle_count, scene.radius, VK_NULL_HANDLE,
                                       particles.value().buffer(), scene.longest},
-                                     timer);
+                                     timer, capture);
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
     status = recorded ? status : recorded;
     if (!status) {
@@ -228,6 +244,10 @@ RigResult PassRig::render(const RigScene& scene) {
         return result;
     }
     result.milliseconds = timer.read();
+    if (captured) {
+        result.captured.resize(captured.size() / sizeof(float));
+        std::memcpy(result.captured.data(), captured.mapped().data(), captured.size());
+    }
     result.colour = rig.downloadHalves(fluid_colour);
     result.depth = rig.download<float>(fluid_depth);
     if (want_normal) {

@@ -52,6 +52,7 @@ struct RigScene {
     SluiceDepthEncoding encoding = SLUICE_DEPTH_WINDOW;
     std::vector<float> environment;  ///< RGB triples; empty: procedural sky
     std::uint32_t environment_width = 0, environment_height = 0;
+    std::uint32_t capture_scale = 0;  ///< not 0: the host's depth is captured for a simulation
 };
 
 /// What came out. Vectors are empty where the plan has no such image.
@@ -64,6 +65,7 @@ struct RigResult {
     std::vector<std::array<float, 4>> normal;  ///< decoded from half floats
     std::vector<float> thickness;              ///< metres, reduced resolution
     std::uint32_t thickness_width = 0, thickness_height = 0;
+    std::vector<float> captured;                               ///< DepthHeader and depths
     std::vector<std::pair<std::string, double>> milliseconds;  ///< per pass, where the device has timestamps
     std::string failure;                                       ///< empty on success
 };

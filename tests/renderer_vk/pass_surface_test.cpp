@@ -2,10 +2,13 @@
 // Normals and the blur of thickness.
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <limits>
 #include <numbers>
 
 #include "pass_scenes.hpp"
 #include "reference/fluid_reference.hpp"
+#include "simulation/depth_field.hpp"
 
 namespace sluice::vk::test {
 namespace {
@@ -115,6 +118,53 @@ TEST(BlurThickness, DoesNotThinTheOutlineOfASlab) {
         }
     }
     EXPECT_GT(after, 0.97 * before);
+}
+
+/// What is captured against doubles: of window depths and of metres, reduced or not, with a last texel that reaches
+/// out.
+TEST(CaptureDepth, KeepsTheNearestDepthInMetresAndTheCamera) {
+    constexpr double kNear = 0.125;  // floats, too
+    constexpr double kFar = 40.0;
+    for (const SluiceDepthEncoding encoding : {SLUICE_DEPTH_WINDOW, SLUICE_DEPTH_LINEAR}) {
+        for (const std::uint32_t scale : {1U, 2U, 3U}) {
+            RigScene scene = emptyScene();
+            scene.width = 37;
+            scene.height = 22;
+            scene.encoding = encoding;
+            scene.capture_scale = scale;
+            scene.camera = perspective(1.0, 37.0 / 22.0, 0.125F, 40.0F, {0.1, -0.2});
+            lookAt(scene.camera, {1, 2, 3}, {0, 0.5, 0});
+            std::vector<float> metres(37 * 22);
+            for (std::size_t i = 0; i < metres.size(); ++i) {
+                const double depth = 0.2 + static_cast<double>(i * 7919 % 997) * 0.01;
+                const bool empty = i % 5 == 0;
+                const double window = kFar / (kFar - kNear) * (1.0 - kNear / depth);
+                const bool linear = encoding == SLUICE_DEPTH_LINEAR;
+                scene.host_depth.push_back(
+                    linear ? (empty ? std::numeric_limits<float>::infinity() : static_cast<float>(depth))
+                           : (empty ? 1.0F : static_cast<float>(window)));
+                // Of what the image really holds.
+                const auto raw = double{scene.host_depth.back()};
+                const double seen = linear ? raw : 1.0 / (1.0 / kNear - raw * (kFar - kNear) / kFar / kNear);
+                metres[i] = empty ? 1e30F : static_cast<float>(seen);
+            }
+            DepthView camera;
+            std::copy_n(&scene.camera.view[0], 16, camera.view.begin());
+            std::copy_n(&scene.camera.projection[0], 16, camera.projection.begin());
+            camera.near_plane = 0.125F;
+            const DepthField expected = depthField(camera, 37, 22, scale, 0.25F, metres);
+            const RigResult result = rendered(scene);
+            DepthHeader header;
+            ASSERT_EQ(result.captured.size(), sizeof header / sizeof(float) + expected.depth.size());
+            std::memcpy(static_cast<void*>(&header), result.captured.data(), sizeof header);
+            const DepthHeader wanted = depthHeader(expected);
+            EXPECT_EQ(std::memcmp(&header, &wanted, sizeof header), 0);
+            for (std::size_t i = 0; i < expected.depth.size(); ++i) {
+                const float found = result.captured[sizeof header / sizeof(float) + i];
+                ASSERT_NEAR(double{found} / double{expected.depth[i]}, 1.0, 2e-5) << i << " " << scale;
+            }
+        }
+    }
 }
 
 }  // namespace

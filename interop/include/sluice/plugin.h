@@ -359,8 +359,11 @@ typedef struct SluiceSceneNeeds {
 } SluiceSceneNeeds;
 
 typedef enum SluiceFrameFlags {
-    SLUICE_FRAME_SKIP_WAIT = 1,           /* fault for tests: do not wait for wait_value */
-    SLUICE_FRAME_SKIP_SIMULATION_WAIT = 2 /* since ABI 1.1, likewise: do not wait for the simulation */
+    SLUICE_FRAME_SKIP_WAIT = 1,            /* fault for tests: do not wait for wait_value */
+    SLUICE_FRAME_SKIP_SIMULATION_WAIT = 2, /* since ABI 1.1, likewise: do not wait for the simulation */
+    /* Since ABI 1.2: a simulation with depth_scale collides with this frame's HOST_DEPTH. Counts in the first frame
+     * that draws its value; needs a perspective, and a camera that only turns and moves. */
+    SLUICE_FRAME_CAPTURE_DEPTH = 4
 } SluiceFrameFlags;
 
 /* One frame. Frames are numbered from 1 without gaps. */
@@ -510,6 +513,14 @@ typedef struct SluiceSimulation {
     float anisotropy;        /* greatest ratio of a particle's axes, 1 to 10; 0: particles have no shape */
     float smoothing, lonely; /* 0 to 1: how far centres go to their neighbours' mean; size without neighbours, 0: 0.5 */
     uint32_t reserved;       /* zero */
+    /* What the host's depth buffer shows is solid, too: value v collides with what was captured
+     * (SLUICE_FRAME_CAPTURE_DEPTH) by the frame that draws value v - depth_lag, but at least 1, and waits for it; by
+     * value 1 nothing has been seen. A frame without the flag, or a value that no frame draws, leaves what was captured
+     * before. */
+    uint32_t depth_scale; /* pixels each way that become one, the nearest of them: 1..8; 0: the depth is no solid */
+    uint32_t depth_lag; /* 1..frames_in_flight; 0: frames_in_flight, with which the simulation runs beside the frames */
+    float depth_thickness;   /* metres behind what is seen that are solid; 0: eight radii */
+    uint32_t depth_reserved; /* zero */
 } SluiceSimulation;
 
 typedef struct SluiceSimulationStats {

@@ -258,6 +258,7 @@ void FrameRing::finishOne(Slot& slot) {
     if (tracer_.on()) {
         emit(slot, times);
     }
+    slot.simulated.captured.reset();
 }
 
 void FrameRing::emit(const Slot& slot, const FrameTimes& times) const {
@@ -291,6 +292,10 @@ void FrameRing::emit(const Slot& slot, const FrameTimes& times) const {
         const PassLabel& label = slot.timer.labels()[i];
         tracer_.emit({SLUICE_TRACE_PASS, kQueue, label.name, times.passes[i].begin_ns, times.passes[i].duration_ns,
                       frame, 0, label.bytes, SLUICE_HOST_TO_RENDERER});
+    }
+    if (const auto& captured = slot.simulated.captured; captured != nullptr) {
+        tracer_.emit({SLUICE_TRACE_RELEASE, kQueue, "CAPTURED_DEPTH", end, 0, frame, frame, captured->size(),
+                      SLUICE_RENDERER_TO_HOST});
     }
     for (std::size_t role = 0; role < slot.image_bytes.size(); ++role) {
         if (slot.image_bytes[role] != 0) {

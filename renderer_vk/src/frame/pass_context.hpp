@@ -34,6 +34,13 @@ struct ParticleBuffers {
     float longest = 1.0F;                  ///< of their axes, in splat radii
 };
 
+/// What the depth buffer of the frame's camera is captured into; `into` empty: it is not.
+struct DepthCapture {
+    VkBuffer into = VK_NULL_HANDLE;
+    std::uint32_t scale = 1;  ///< pixels each way that become one
+    float thickness = 0.0F;   ///< m
+};
+
 /// What a pass tells of itself when it starts.
 struct PassLabel {
     const char* name = "";       ///< at most 31 characters; string literal

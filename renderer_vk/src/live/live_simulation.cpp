@@ -24,6 +24,7 @@ constexpr std::uint64_t kLookNs = 50'000'000;
 constexpr double kLeastPart = 1.0 / 1024.0;
 constexpr std::uint64_t kBytesOfParticle = 6 * sizeof(float);
 constexpr const char* kFluidName = "SIMULATED_FLUID";
+constexpr const char* kDepthName = "CAPTURED_DEPTH";
 
 std::vector<BodyState> startsOf(const std::vector<Body>& bodies) {
     std::vector<BodyState> starts(bodies.size());
@@ -47,6 +48,9 @@ LiveSimulation::LiveSimulation(const RendererTimeline& timeline, const Tracer& t
       shaped_(setup.anisotropy.has_value()),
       settings_(setup.settings),
       reports_(setup.frames_in_flight + 1, startsOf(setup.settings.bodies)),
+      depth_scale_(setup.depth_scale),
+      depth_thickness_(setup.depth_thickness),
+      seen_(setup.depth_lag),
       readers_(setup.frames_in_flight + 1),
       living_(setup.frames_in_flight + 1) {
     stats_.struct_size = sizeof(stats_);
@@ -186,6 +190,8 @@ Result<SimulatedFluid> LiveSimulation::fluid(std::uint64_t value, bool skip_wait
                                  value, stats_.asked, slots_->count()),
                      "call simulate first, and no more than frames_in_flight values ahead of the frames"};
     }
+    seen_.passed(value - 1);  // nobody draws those any more
+    changed_.notify_all();
     if (oneQueue() && !skip_wait) {
         const auto patience = std::chrono::nanoseconds(FrameRing::kPatienceNs);
         if (!changed_.wait_for(lock, patience, [&] { return submitted_ >= value || stop_; })) {
@@ -212,8 +218,20 @@ std::string LiveSimulation::late() const {
                        seconds);
 }
 
-void LiveSimulation::drawn(std::uint64_t value, std::uint64_t signal_value) {
+Result<std::shared_ptr<const Buffer>> LiveSimulation::captureRoom(const Device& device, std::uint64_t value,
+                                                                  VkDeviceSize bytes) {
     const std::lock_guard lock(mutex_);
+    if (depth_scale_ == 0 || seen_.known(value)) {
+        return std::shared_ptr<const Buffer>{};
+    }
+    return seen_.room(device, bytes);
+}
+
+void LiveSimulation::drawn(std::uint64_t value, std::uint64_t signal_value,
+                           const std::shared_ptr<const Buffer>& captured) {
+    const std::lock_guard lock(mutex_);
+    seen_.drawn(value, {captured, signal_value});
+    changed_.notify_all();
     std::uint64_t& reader = readers_[value % readers_.size()];
     reader = std::max(reader, signal_value);
 }
@@ -325,6 +343,9 @@ Status LiveSimulation::advance(const Request& request) {
     if (owed_ < kLeastPart * longest_step_) {
         return {};
     }
+    if (Status status = look(request.value); !status || stopping()) {
+        return status;
+    }
     std::uint64_t step_began = tracer_.now();
     driveBodies();
     solver_->watchSteps([&](const StepReport& report, bool kept) {
@@ -363,14 +384,50 @@ void LiveSimulation::driveBodies() {
     }
 }
 
+Status LiveSimulation::look(std::uint64_t value) {
+    SeenDepth depth;
+    {
+        std::unique_lock lock(mutex_);
+        const std::uint64_t source = depth_scale_ == 0 ? 0 : seen_.sourceOf(value);
+        if (!changed_.wait_for(lock, std::chrono::nanoseconds(FrameRing::kPatienceNs),
+                               [&] { return stop_ || seen_.known(source); })) {
+            return Error{SLUICE_ERROR_INTERNAL, fmt::format("simulation value {}", value),
+                         fmt::format("it collides with the depth of the frame that draws value {}, which did not come "
+                                     "in {} s",
+                                     source, FrameRing::kPatienceNs / 1'000'000'000),
+                         "draw the values in order, or ask for fewer ahead of the frames"};
+        }
+        depth = seen_.at(source);
+        seen_.forget(source);
+    }
+    if (depth.buffer == nullptr || depth.buffer == seen_by_) {
+        return {};
+    }
+    if (Status status = waitForFrame(depth.signal, value, "depth captured"); !status || stopping()) {
+        return status;
+    }
+    solver_->useDepthField(depth.buffer->buffer());
+    tracer_.emit({SLUICE_TRACE_ACQUIRE, SLUICE_TRACK_SIMULATION, kDepthName, tracer_.now(), 0, value, depth.signal,
+                  depth.buffer->size(), SLUICE_RENDERER_TO_HOST});
+    // Whoever looks for an idle buffer holds the lock, too.
+    const std::lock_guard lock(mutex_);
+    seen_by_ = std::move(depth.buffer);
+    return {};
+}
+
 Status LiveSimulation::waitForFrames(std::uint64_t value) {
     std::uint64_t reader = 0;
     {
         const std::lock_guard lock(mutex_);
-        reader = held_by_ = readers_[value % readers_.size()];
+        reader = readers_[value % readers_.size()];
     }
-    if (reader == 0) {
-        return {};
+    return reader == 0 ? Status{} : waitForFrame(reader, value, "slot free");
+}
+
+Status LiveSimulation::waitForFrame(std::uint64_t reader, std::uint64_t value, const char* why) {
+    {
+        const std::lock_guard lock(mutex_);
+        held_by_ = reader;
     }
     const std::uint64_t began = tracer_.now();
     // In slices, so that the thread can end whatever becomes of that frame.
@@ -386,8 +443,8 @@ Status LiveSimulation::waitForFrames(std::uint64_t value) {
         return Error{result, "simulation", fmt::format("the wait for frame {} failed", reader),
                      "destroy the renderer and create it again"};
     }
-    tracer_.emit({SLUICE_TRACE_WAIT, SLUICE_TRACK_SIMULATION, "slot free", began, tracer_.now() - began, value, reader,
-                  0, SLUICE_RENDERER_TO_HOST});
+    tracer_.emit({SLUICE_TRACE_WAIT, SLUICE_TRACK_SIMULATION, why, began, tracer_.now() - began, value, reader, 0,
+                  SLUICE_RENDERER_TO_HOST});
     return {};
 }
 

@@ -20,6 +20,7 @@
 #include "frame/tracer.hpp"
 #include "live/body_reports.hpp"
 #include "live/output_slots.hpp"
+#include "live/seen_depths.hpp"
 #include "simulation/solver.hpp"
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
@@ -38,6 +39,9 @@ struct LiveSetup {
     std::uint32_t frames_in_flight = 1;
     std::uint32_t most_particles = 0;  ///< that there will ever be; room of the output slots
     std::optional<Anisotropy> anisotropy;
+    std::uint32_t depth_scale = 0;  ///< as SluiceSimulation has it; not 0: with settings.seen
+    std::uint32_t depth_lag = 1;
+    float depth_thickness = 0.0F;  ///< m
 };
 
 /// Where a driven body is to be.
@@ -53,6 +57,8 @@ struct SimulatedFluid {
     std::uint64_t value = 0;
     VkSemaphore semaphore = VK_NULL_HANDLE;
     bool waits = true;  ///< false: a fault of tests
+    /// What the frame captures its depth into; none: it does not.
+    std::shared_ptr<const Buffer> captured{};
 };
 
 /// The solver looks at every step's outcome before the next one, so it needs a thread; that thread is the only one that
@@ -79,8 +85,14 @@ class LiveSimulation {
     /// until the last work of `value` has been submitted: behind a frame that waits for it, it would never run. Fails
     /// after FrameRing::kPatienceNs.
     [[nodiscard]] Result<SimulatedFluid> fluid(std::uint64_t value, bool skip_wait);
-    /// A frame that signals `signal_value` of the renderer's timeline draws `value`.
-    void drawn(std::uint64_t value, std::uint64_t signal_value);
+    /// Where the first frame that draws `value` captures its depth, in so many bytes of `device`; none for another, and
+    /// where the fluid does not collide with it.
+    [[nodiscard]] Result<std::shared_ptr<const Buffer>> captureRoom(const Device& device, std::uint64_t value,
+                                                                    VkDeviceSize bytes);
+    [[nodiscard]] std::uint32_t depthScale() const { return depth_scale_; }
+    [[nodiscard]] float depthThickness() const { return depth_thickness_; }
+    /// A frame that signals `signal_value` of the renderer's timeline draws `value`, and has captured into that.
+    void drawn(std::uint64_t value, std::uint64_t signal_value, const std::shared_ptr<const Buffer>& captured);
     /// The most that there will ever be.
     [[nodiscard]] std::uint32_t particles() const { return most_particles_; }
     /// Its particles are ellipsoids.
@@ -114,6 +126,8 @@ class LiveSimulation {
     void reach(const Request& request);
     [[nodiscard]] Status advance(const Request& request);
     [[nodiscard]] Status waitForFrames(std::uint64_t value);
+    [[nodiscard]] Status waitForFrame(std::uint64_t signal, std::uint64_t value, const char* why);
+    [[nodiscard]] Status look(std::uint64_t value);
     [[nodiscard]] std::string late() const;
     void driveBodies();
     [[nodiscard]] Status publish(std::uint64_t value);
@@ -132,6 +146,9 @@ class LiveSimulation {
     VkSemaphore semaphore_ = VK_NULL_HANDLE;
     std::unique_ptr<Solver> solver_;
     std::unique_ptr<OutputSlots> slots_;
+    std::uint32_t depth_scale_;
+    float depth_thickness_;
+    std::shared_ptr<const Buffer> seen_by_;  ///< what the solver reads; the thread's
 
     double owed_ = 0.0;                   ///< s, asked for and too little for a step; the thread's
     std::vector<BodyTarget> targets_;     ///< likewise of values without a step
@@ -141,6 +158,7 @@ class LiveSimulation {
     mutable std::mutex mutex_;  ///< guards all below
     mutable std::condition_variable changed_;
     std::deque<Request> requests_;
+    SeenDepths seen_;
     std::vector<std::uint64_t> readers_;  ///< by slot: signal value of the last frame that draws from it
     std::vector<std::uint32_t> living_;   ///< by slot: particles, once its value has been submitted
     bool stop_ = false;

@@ -6,4 +6,5 @@ list(APPEND SLUICE_VK_SOURCES
     src/live/one_set.cpp
     src/live/output_slots.cpp
     src/live/particle_places.cpp
+    src/live/seen_depths.cpp
 )

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "device/one_shot.hpp"
+#include "passes/capture_depth.hpp"
 #include "passes/context.hpp"
 #include "passes/echo.hpp"
 #include "passes/filter.hpp"
@@ -41,6 +42,7 @@ struct FluidRecorder::State {
     ShadePass shade;
     std::optional<EchoPass> echo;
     std::optional<ClearPass> clear;
+    std::optional<CaptureDepthPass> capture_depth;
     std::optional<Plan> plan;
 };
 
@@ -253,7 +255,8 @@ const Image* FluidRecorder::image(PlanImage id) const {
 }
 
 Status FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan,
-                             const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer) {
+                             const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer,
+                             const DepthCapture& capture) {
     assert(state_->plan && *state_->plan == plan);
     FrameArena& arena = state_->arenas.at(frame.image_set);
     FrameConstants constants = makeFrameConstants(frame, plan, targets, particles);
@@ -267,6 +270,16 @@ Status FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame,
     const PassContext context{state_->device, commands, frame, plan, targets, particles, timer, arena, state_->images};
     const std::size_t shape = plan.ellipsoids ? 1 : 0;
     openImages(context);
+    if (capture.into != VK_NULL_HANDLE) {
+        if (!state_->capture_depth) {
+            auto made = CaptureDepthPass::create(state_->device);
+            if (!made) {
+                return made.error();
+            }
+            state_->capture_depth = std::move(made).value();
+        }
+        state_->capture_depth->record(context, capture);
+    }
     for (const PlannedPass& pass : plan.passes) {
         switch (pass.id) {
             case PassId::SplatDepth:

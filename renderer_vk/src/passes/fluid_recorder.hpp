@@ -34,7 +34,8 @@ class FluidRecorder {
     /// compute shaders in GENERAL and are left so; their last writes are by compute.
     /// On failure the commands must not be submitted.
     [[nodiscard]] Status record(VkCommandBuffer commands, const SluiceFrame& frame, const Plan& plan,
-                                const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer);
+                                const FrameTargets& targets, const ParticleBuffers& particles, PassTimer& timer,
+                                const DepthCapture& capture = {});
     /// One of the renderer's own images, in GENERAL once recorded work has finished, for tests and captures; null if
     /// the plan has none. Valid until the next prepare.
     [[nodiscard]] const Image* image(PlanImage id) const;

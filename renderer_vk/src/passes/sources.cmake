@@ -5,6 +5,7 @@ list(APPEND SLUICE_VK_SOURCES
     src/plan/plan.cpp
     src/plan/explain.cpp
     src/passes/arena.cpp
+    src/passes/capture_depth.cpp
     src/passes/context.cpp
     src/passes/echo.cpp
     src/passes/filter.cpp

@@ -154,7 +154,8 @@ Status checkFrameOrder(const SluiceFrame& frame, const FrameExpectation& expecte
 }
 
 Status checkFrameValues(const SluiceFrame& frame, const FrameExpectation& expected) {
-    constexpr std::uint32_t kFlags = SLUICE_FRAME_SKIP_WAIT | SLUICE_FRAME_SKIP_SIMULATION_WAIT;
+    constexpr std::uint32_t kFlags =
+        SLUICE_FRAME_SKIP_WAIT | SLUICE_FRAME_SKIP_SIMULATION_WAIT | SLUICE_FRAME_CAPTURE_DEPTH;
     if ((frame.flags & ~kFlags) != 0) {
         return invalid("frame.flags", fmt::format("{:#x} has bits that are not SluiceFrameFlags", frame.flags));
     }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "device/validation.hpp"
+#include "passes/capture_depth.hpp"
 #include "plugin/agree.hpp"
 #include "plugin/arguments.hpp"
 #include "sluice/format.hpp"
@@ -197,10 +198,22 @@ Result<FrameFluid> SluiceRenderer::fluidOf(const SluiceFrame& frame) {
     if (!simulation_) {
         return noSimulation("frame.simulation");
     }
-    const Result<SimulatedFluid> fluid =
+    const bool captures = (frame.flags & SLUICE_FRAME_CAPTURE_DEPTH) != 0 && simulation_->depthScale() != 0;
+    if (Status status = captures ? checkCamera(frame.camera) : Status{}; !status) {
+        return status.error();
+    }
+    Result<SimulatedFluid> fluid =
         simulation_->fluid(frame.simulation, (frame.flags & SLUICE_FRAME_SKIP_SIMULATION_WAIT) != 0);
     if (!fluid) {
         return fluid.error();
+    }
+    if (captures) {
+        auto room = simulation_->captureRoom(*device_, frame.simulation,
+                                             captureBytes(info_.width, info_.height, simulation_->depthScale()));
+        if (!room) {
+            return room.error();
+        }
+        fluid.value().captured = std::move(room).value();
     }
     return FrameFluid{nullptr, fluid.value()};
 }
@@ -266,19 +279,24 @@ Status SluiceRenderer::preparePlan(const SluiceFrame& frame) {
 
 Status SluiceRenderer::recordAndSubmit(const SluiceFrame& frame) {
     const FrameTargets targets = images_->targets(frame.image_set);
-    const PassRecorder record = [&](VkCommandBuffer commands, const ParticleBuffers& particles, PassTimer& timer) {
-        return recorder_->record(commands, frame, *plan_, targets, particles, timer);
-    };
     const Result<FrameFluid> fluid = fluidOf(frame);
     if (!fluid) {
         return fluid.error();
     }
+    const std::shared_ptr<const Buffer>& captured = fluid.value().simulated.captured;
+    DepthCapture capture;
+    if (captured != nullptr) {
+        capture = {captured->buffer(), simulation_->depthScale(), simulation_->depthThickness()};
+    }
+    const PassRecorder record = [&](VkCommandBuffer commands, const ParticleBuffers& particles, PassTimer& timer) {
+        return recorder_->record(commands, frame, *plan_, targets, particles, timer, capture);
+    };
     if (Status status = frames_->submit(frame, *images_, fluid.value(), record); !status) {
         return status;
     }
     submitted_ = frame.frame;
     if (frame.simulation != 0) {
-        simulation_->drawn(frame.simulation, frame.signal_value);
+        simulation_->drawn(frame.simulation, frame.signal_value, captured);
     }
     if (info_.timeline == SLUICE_TIMELINE_FINISH) {
         return frames_->waitForAll();

@@ -65,6 +65,30 @@ Status checkCounts(const SluiceSimulation& s) {
     return {};
 }
 
+/// The host's depth as a solid; nothing is seen to begin with.
+Status readDepth(const SluiceSimulation& s, LiveSetup& to) {
+    if (s.depth_scale == 0) {
+        return {};
+    }
+    if (s.depth_scale > 8) {
+        return invalid("simulation.depth_scale", fmt::format("{} is outside 0..8", s.depth_scale));
+    }
+    if (s.depth_lag > s.frames_in_flight) {
+        return invalid("simulation.depth_lag",
+                       fmt::format("{} is outside 0..{} (frames_in_flight)", s.depth_lag, s.frames_in_flight));
+    }
+    const float thickness = s.depth_thickness != 0.0F ? s.depth_thickness : kThicknessInRadii * s.radius;
+    if (!(thickness >= 4.0F * s.radius && thickness <= 1e6F)) {
+        return invalid("simulation.depth_thickness",
+                       fmt::format("{} m is outside [{} (4 radii), 1e6]", thickness, 4.0F * s.radius));
+    }
+    to.settings.seen = std::make_shared<const DepthField>();
+    to.depth_scale = s.depth_scale;
+    to.depth_lag = s.depth_lag != 0 ? s.depth_lag : s.frames_in_flight;
+    to.depth_thickness = thickness;
+    return {};
+}
+
 }  // namespace
 
 Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
@@ -115,6 +139,9 @@ Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
     if (s.anisotropy != 0.0F) {
         const Anisotropy usual;
         setup.anisotropy = Anisotropy{s.anisotropy, s.smoothing, s.lonely != 0.0F ? s.lonely : usual.lonely};
+    }
+    if (Status status = readDepth(s, setup); !status) {
+        return status.error();
     }
     setup.most_particles = s.emitter_count > 0 ? s.max_particles : s.particle_count;
     const std::size_t floats = std::size_t{3} * s.particle_count;

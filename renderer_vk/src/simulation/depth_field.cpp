@@ -86,7 +86,9 @@ Status checkDepthView(const DepthView& camera) {
     for (std::size_t row = 0; row < 3; ++row) {
         off = std::max({off, std::abs(dot(axes[row], axes[row]) - 1.0), std::abs(dot(axes[row], axes[(row + 1) % 3]))});
     }
-    if (off > 1e-3 || v[3] != 0.0F || v[7] != 0.0F || v[11] != 0.0F || v[15] != 1.0F) {
+    off = std::max(
+        {off, std::abs(double{v[3]}), std::abs(double{v[7]}), std::abs(double{v[11]}), std::abs(double{v[15]} - 1.0)});
+    if (off > 1e-3) {
         return wrong("a view that only turns and moves", fmt::format("one that is {:.3g} off", off));
     }
     if (p[3] != 0.0F || p[7] != 0.0F || p[15] != 0.0F || !(p[11] < 0.0F) || p[0] == 0.0F || p[5] == 0.0F ||

@@ -92,7 +92,7 @@ class Solver {
     /// as it was.
     [[nodiscard]] Status setDepthField(const DepthField& field);
     /// The same from a buffer on the device, a DepthHeader and its depths, that must last until there is another; what
-    /// it holds has been made visible to compute shaders.
+    /// wrote it has ended.
     void useDepthField(VkBuffer field);
     /// One step of that length, whatever the CFL number. On an error the state is that before the step.
     [[nodiscard]] Result<StepReport> step(double seconds);

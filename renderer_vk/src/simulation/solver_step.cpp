@@ -33,6 +33,10 @@ void Solver::State::recordSearch(VkCommandBuffer commands) {
     const std::uint32_t entries = groupsOf(counts.entries, kGroup);
     const std::uint32_t blocks = groupsOf(groupsOf(grid.cells(), kScanBlock), kScanGroup);
     timer.begin(commands);
+    if (settings.seen != nullptr) {
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_READ_BIT);
+    }
     device.fn.vkCmdFillBuffer(commands, buffers[Slot::Cells].buffer(), 0, VK_WHOLE_SIZE, 0);
     device.fn.vkCmdFillBuffer(commands, buffers[Slot::Status].buffer(), 0, VK_WHOLE_SIZE, 0);
     if (changing()) {

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Which frame's depth which value of a simulation collides with, and the buffers that hold them.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "memory/buffer.hpp"
+
+namespace sluice::vk {
+
+/// What a frame has captured, or will have when it ends.
+struct SeenDepth {
+    std::shared_ptr<const Buffer> buffer;  ///< none: nothing has been captured yet
+    std::uint64_t signal = 0;              ///< value of the renderer's timeline at which it is there
+};
+
+/// Value v collides with the depth of the frame that draws value v - lag, but at least 1; value 1 with none. A frame
+/// that captures nothing leaves what the value before it had; values that no frame draws, too. A buffer is used again
+/// when nobody holds it any more, neither a value, nor a frame, nor the solver. Guarded by whoever owns it.
+class SeenDepths {
+  public:
+    explicit SeenDepths(std::uint32_t lag) : lag_(lag) {}
+
+    /// Whose frame `value` needs; 0: none.
+    [[nodiscard]] std::uint64_t sourceOf(std::uint64_t value) const;
+    /// A buffer that nobody holds.
+    [[nodiscard]] Result<std::shared_ptr<const Buffer>> room(const Device& device, VkDeviceSize bytes);
+
+    /// The first frame that draws `value` has been submitted.
+    void drawn(std::uint64_t value, SeenDepth captured);
+    /// No frame will draw `value` or one before it any more.
+    void passed(std::uint64_t value);
+    [[nodiscard]] bool known(std::uint64_t value) const { return value <= known_; }
+    [[nodiscard]] SeenDepth at(std::uint64_t value) const;
+    /// No value needs those before `value` any more.
+    void forget(std::uint64_t value);
+
+  private:
+    std::uint32_t lag_;
+    std::uint64_t known_ = 0;
+    std::map<std::uint64_t, SeenDepth> seen_;  ///< by value, where it is another than that of the value before
+    std::vector<std::shared_ptr<const Buffer>> buffers_;
+};
+
+}  // namespace sluice::vk
