@@ -156,6 +156,11 @@ bool simulatesLive(const scene::Scene& scene) {
 Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulator::Mesh>& meshes,
                             const LiveRequest& request) {
     simulator::Setup setup = simulationSetup(scene);
+    if (!setup.fluids.empty()) {  // which the C ABI does not know
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "/simulation/fluids",
+                     fmt::format("expected none while frames are drawn, found {}", setup.fluids.size()),
+                     "simulate into files first (sluice simulate SCENE -o FILE) and give them with --particles"};
+    }
     if (Status status = simulator::addMeshes(setup, meshes); !status) {
         return status.error();
     }

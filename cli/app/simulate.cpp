@@ -113,6 +113,10 @@ Status write(Run& run, std::int64_t frame, simulator::Particles&& particles) {
     }
     particles::ParticleSet set;
     set.radius = run.settings.radius;
+    for (const std::uint32_t fluid : particles.fluid) {
+        const scene::Vec3& colour = run.settings.fluids[fluid].colour;
+        set.colour.insert(set.colour.end(), colour.begin(), colour.end());
+    }
     set.position = std::move(particles.position);
     set.velocity = std::move(particles.velocity);
     Status status = particles::save(path.value(), set);

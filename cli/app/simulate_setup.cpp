@@ -40,7 +40,7 @@ void addEngine(simulator::Setup& setup, const host::EngineScene& engine) {
 void addSources(simulator::Setup& setup, const scene::Simulation& s) {
     for (const scene::Emitter& e : s.emitters) {
         setup.emitters.push_back({e.shape == scene::kEmitterDisc, e.centre, e.direction, e.width, e.height, e.speed,
-                                  e.rate, e.start, e.stop});
+                                  e.rate, e.start, e.stop, e.fluid});
     }
     for (const scene::Drain& drain : s.drains) {
         setup.drains.push_back({drain.shape == scene::kDrainSphere, drain.centre, drain.half});
@@ -107,6 +107,9 @@ simulator::Setup simulationSetup(const scene::Scene& scene) {
     setup.tension = s.tension;
     setup.adhesion = s.adhesion;
     setup.overshoot = s.overshoot;
+    for (const scene::FluidKind& fluid : s.fluids) {
+        setup.fluids.push_back({fluid.density, fluid.viscosity, fluid.tension, fluid.adhesion});
+    }
     for (const scene::SolidSphere& sphere : s.spheres) {
         setup.spheres.push_back({sphere.centre, sphere.radius});
     }
@@ -152,6 +155,7 @@ Result<simulator::Particles> startOfFluid(const scene::Simulation& simulation, c
                                        double{simulation.jitter} * double{simulation.radius} * random(seed, number++)));
                 all.velocity.push_back(box.velocity.at(axis));
             }
+            all.fluid.push_back(box.fluid);
         }
     }
     // Jitter may take half a radius from what a particle at a wall has.
@@ -161,6 +165,9 @@ Result<simulator::Particles> startOfFluid(const scene::Simulation& simulation, c
         if (clear[i / 3] >= 0.5 * double{simulation.radius}) {
             particles.position.push_back(all.position[i]);
             particles.velocity.push_back(all.velocity[i]);
+            if (i % 3 == 0 && !simulation.fluids.empty()) {
+                particles.fluid.push_back(all.fluid[i / 3]);
+            }
         }
     }
     if (particles.position.empty() && simulation.emitters.empty()) {

@@ -127,7 +127,11 @@ void visitEmitter(Visitor& v, Emitter& e) {
 
 template <typename Visitor>
 void visitSources(Visitor& v, Simulation& s) {
-    v.list("emitters", s.emitters, [](auto& o, Emitter& emitter) { visitEmitter(o, emitter); });
+    v.list("emitters", s.emitters, [](auto& o, Emitter& emitter) {
+        visitEmitter(o, emitter);
+        o.integer("fluid", emitter.fluid, 0, kMostFluids - 1);
+        o.mayLack("fluid");
+    });
     v.list("drains", s.drains, [](auto& o, Drain& drain) {
         o.choice("shape", drain.shape, kDrainShapes);
         o.numbers("centre", drain.centre, kAnyLength);
@@ -190,6 +194,15 @@ void visitSimulation(Visitor& v, Simulation& s) {
         o.numbers("low", box.low, kAnyLength);
         o.numbers("high", box.high, kAnyLength);
         o.numbers("velocity", box.velocity, Range{-1.0e4, 1.0e4});
+        o.integer("fluid", box.fluid, 0, kMostFluids - 1);
+        o.mayLack("fluid");
+    });
+    v.list("fluids", s.fluids, [](auto& o, FluidKind& fluid) {
+        o.number("density", fluid.density, Range{0.001, 1000.0});
+        o.number("viscosity", fluid.viscosity, kUnit);
+        o.number("tension", fluid.tension, Range{0.0, 100.0});
+        o.number("adhesion", fluid.adhesion, Range{0.0, 100.0});
+        o.numbers("colour", fluid.colour, kUnit);
     });
     v.list("spheres", s.spheres, [](auto& o, SolidSphere& sphere) {
         o.numbers("centre", sphere.centre, kAnyLength);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <nlohmann/json.hpp>
@@ -148,7 +149,25 @@ void checkBodies(ObjectReader& reader, const Simulation& s) {
     }
 }
 
+void checkFluids(ObjectReader& reader, const Simulation& s) {
+    const auto known = static_cast<std::uint32_t>(std::max<std::size_t>(s.fluids.size(), 1));
+    const auto check = [&](const std::string& list, std::size_t i, std::uint32_t fluid) {
+        if (fluid >= known) {
+            reader.fail(fmt::format("simulation/{}/{}/fluid", list, i),
+                        fmt::format("a place in simulation/fluids, which has {}", s.fluids.size()),
+                        fmt::format("{}", fluid));
+        }
+    };
+    for (std::size_t i = 0; i < s.fluid.size(); ++i) {
+        check("fluid", i, s.fluid[i].fluid);
+    }
+    for (std::size_t i = 0; i < s.emitters.size(); ++i) {
+        check("emitters", i, s.emitters[i].fluid);
+    }
+}
+
 void checkSimulation(ObjectReader& reader, const Simulation& s) {
+    checkFluids(reader, s);
     checkBox(reader, "simulation/domain", s.low, s.high);
     checkSources(reader, s);
     checkBodies(reader, s);

@@ -187,7 +187,8 @@ void ObjectReader::requireAll() {
         if (failure_) {
             return;
         }
-        if (!object_.contains(std::string(key))) {
+        const bool needed = std::find(lacking_.begin(), lacking_.end(), key) == lacking_.end();
+        if (needed && !object_.contains(std::string(key))) {
             // A misspelt key is both unknown and missing; the unknown one is the more useful message.
             finish();
             if (!failure_) {

@@ -71,7 +71,9 @@ class ObjectReader {
 
     /// To be called after all fields: any key that nobody asked for is an error.
     void finish();
-    /// Members of lists have no defaults: every key must be there.
+    /// Of a member of a list: this key has a default after all.
+    void mayLack(std::string_view key) { lacking_.push_back(key); }
+    /// Members of lists have no defaults: every other key must be there.
     void requireAll();
     /// Records an error about `key` that needs more than one field to see.
     void fail(std::string_view key, const std::string& expected, const std::string& found);
@@ -86,7 +88,7 @@ class ObjectReader {
     std::string path_;
     const std::string& name_;
     std::optional<Error>& failure_;
-    std::vector<std::string_view> known_;
+    std::vector<std::string_view> known_, lacking_;
 };
 
 }  // namespace sluice::scene

@@ -39,6 +39,7 @@ class ObjectWriter {
         put(key, {shortest(value[0]), shortest(value[1]), shortest(value[2])});
     }
     void numberOf(std::string_view key, float value, std::span<const float> /*values*/) { put(key, shortest(value)); }
+    void mayLack(std::string_view /*key*/) {}
     template <typename Integer>
     void pair(std::string_view key, Integer a, Integer b, std::int64_t /*low*/, std::int64_t /*high*/) {
         put(key, {a, b});

@@ -25,6 +25,9 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
     s.tension = setup.tension;
     s.adhesion = setup.adhesion;
     s.overshoot = setup.overshoot;
+    for (const Fluid& f : setup.fluids) {
+        s.fluids.push_back({f.density, f.viscosity, f.tension, f.adhesion});
+    }
     for (const Sphere& sphere : setup.spheres) {
         s.solids.push_back(vk::sphereSolid(sphere.centre, sphere.radius));
     }
@@ -39,7 +42,7 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
     }
     for (const Emitter& e : setup.emitters) {
         s.sources.emitters.push_back(
-            {e.disc, e.centre, e.direction, e.width, e.height, e.speed, e.rate, e.start, e.stop});
+            {e.disc, e.centre, e.direction, e.width, e.height, e.speed, e.rate, e.start, e.stop, e.fluid});
     }
     for (const Drain& drain : setup.drains) {
         s.sources.drains.push_back({drain.sphere, drain.centre, drain.half});
@@ -154,7 +157,7 @@ Result<Simulator> Simulator::create(const Setup& setup, bool validation) {
 }
 
 Status Simulator::setParticles(const Particles& particles) {
-    return state_->solver->setParticles(particles.position, particles.velocity);
+    return state_->solver->setParticles(particles.position, particles.velocity, particles.fluid);
 }
 
 Result<Advance> Simulator::advance(double seconds, double longest) {
@@ -181,7 +184,8 @@ Result<Particles> Simulator::read() const {
     if (!state) {
         return state.error();
     }
-    return Particles{std::move(state.value().position), std::move(state.value().velocity)};
+    return Particles{std::move(state.value().position), std::move(state.value().velocity),
+                     std::move(state.value().fluid)};
 }
 
 std::vector<BodyPose> Simulator::bodies() const {

@@ -48,6 +48,7 @@ struct Emitter {
     bool disc;
     Vec3 centre, direction;
     float width, height, speed, rate, start, stop;
+    std::uint32_t fluid = 0;
 };
 struct Drain {
     bool sphere;
@@ -78,6 +79,11 @@ struct BodyPose {
     Vec3 velocity, spin, force, torque;
 };
 
+/// One of several.
+struct Fluid {
+    float density, viscosity, tension, adhesion;
+};
+
 /// docs/simulation.md has every number; metres and seconds.
 struct Setup {
     float radius = 0.02F;
@@ -85,6 +91,7 @@ struct Setup {
     std::uint32_t iterations = 4;
     float relaxation = 0.0F, tensile = 0.0F, viscosity = 0.0F, vorticity = 0.0F, cfl = 0.0F, tension = 0.0F,
           adhesion = 0.0F, overshoot = 0.0F;
+    std::vector<Fluid> fluids;  ///< none: water, with the viscosity, tension and adhesion above
     std::vector<Sphere> spheres;
     std::vector<Capsule> capsules;
     std::vector<Box> boxes;
@@ -100,6 +107,7 @@ struct Setup {
 /// Particles in the order in which they were given; triples.
 struct Particles {
     std::vector<float> position, velocity;
+    std::vector<std::uint32_t> fluid;  ///< of each, which of the setup's; empty where that has none
 };
 
 /// What it took to get from one time to another.

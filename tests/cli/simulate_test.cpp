@@ -49,6 +49,29 @@ TEST_F(Simulate, RangesOfOneRunByTwoProcessesAreTheSameFiles) {
     EXPECT_NE(simulate("s.json -o other_##.pos --frames 4..4 --seed 2")["replay_hash"], whole["replay_hash"]);
 }
 
+TEST_F(Simulate, TwoFluidsAreWrittenInTheirColoursAndTooUnlikeOnesAreRefused) {
+    const auto scene = [](const std::string& density) {
+        return R"({"simulation": {"radius": 0.05, "collide_with_engine": false,
+                   "fluids": [{"density": 1, "viscosity": 0.02, "tension": 0, "adhesion": 0, "colour": [0, 0, 1]},
+                              {"density": )" +
+               density + R"(, "viscosity": 0.1, "tension": 0, "adhesion": 0, "colour": [1, 0.5, 0]}],
+                   "fluid": [{"low": [-0.4, 0, -0.4], "high": [0.4, 0.4, 0.4], "velocity": [0, 0, 0], "fluid": 1},
+                             {"low": [-0.4, 0.4, -0.4], "high": [0.4, 0.8, 0.4], "velocity": [0, 0, 0]}]}})";
+    };
+    write("two.json", scene("0.25"));
+    const nlohmann::json two = simulate("two.json -o two_##.ply --frames 1..3 --validation");
+    EXPECT_EQ(two["validation_messages"], 0);
+    EXPECT_EQ(two["particles"]["count"], 512);
+    EXPECT_THAT(read("two_03.ply"), HasSubstr("property"));
+    EXPECT_THAT(read("two_03.ply"), HasSubstr("red"));
+    write("alike.json", scene("1"));
+    EXPECT_NE(simulate("alike.json -o alike_##.pos --frames 1..3")["replay_hash"], two["replay_hash"]);
+    write("wide.json", scene("0.01"));
+    const Outcome wide = run("simulate wide.json -o wide.pos");
+    EXPECT_EQ(wide.code, 2);
+    EXPECT_THAT(wide.err, HasSubstr("1 and 0.01, 100 times"));
+}
+
 TEST_F(Simulate, AMeshKeepsTheFluidOutAndAnOpenOneIsRefused) {
     const auto scene = [](const std::string& solid) {
         return R"({"simulation": {"radius": 0.05, "collide_with_engine": false,

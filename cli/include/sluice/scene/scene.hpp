@@ -59,9 +59,18 @@ struct CameraPath {
 
 /// A box that is full of particles at the start.
 struct FluidBox {
-    Vec3 low, high;  ///< metres
-    Vec3 velocity;   ///< m/s
+    Vec3 low, high;           ///< metres
+    Vec3 velocity;            ///< m/s
+    std::uint32_t fluid = 0;  ///< which of the list
 };
+/// One of several fluids in a simulation.
+struct FluidKind {
+    float density;  ///< at rest, of water
+    float viscosity;
+    float tension, adhesion;  ///< m/s^2
+    Vec3 colour;              ///< linear RGB, of its particles in files that have colours
+};
+inline constexpr std::uint32_t kMostFluids = 8;
 struct SolidSphere {
     Vec3 centre;
     float radius;
@@ -93,10 +102,11 @@ struct SolidMesh {
 struct Emitter {
     std::uint32_t shape = 0;  ///< kEmitterDisc, kEmitterBox
     Vec3 centre, direction;
-    float width, height;  ///< metres; a disc's diameter, twice
-    float speed;          ///< m/s
-    float rate;           ///< particles per second; 0: as many as there is room for
-    float start, stop;    ///< s; stop 0: never
+    float width, height;      ///< metres; a disc's diameter, twice
+    float speed;              ///< m/s
+    float rate;               ///< particles per second; 0: as many as there is room for
+    float start, stop;        ///< s; stop 0: never
+    std::uint32_t fluid = 0;  ///< which of the list
 };
 inline constexpr std::uint32_t kEmitterDisc = 0, kEmitterBox = 1;
 /// What takes the particles that come into it.
@@ -152,6 +162,7 @@ struct Simulation {
     float jitter = 0.05F;                   ///< radii that a particle may be off its lattice at the start
     std::uint32_t collide_with_engine = 1;  ///< floor, pillars, crates and basins are solids too
     std::vector<FluidBox> fluid;
+    std::vector<FluidKind> fluids;  ///< none: water, with the viscosity, tension and adhesion above
     std::vector<SolidSphere> spheres;
     std::vector<SolidCapsule> capsules;
     std::vector<SolidBox> boxes;
