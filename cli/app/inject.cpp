@@ -54,8 +54,9 @@ void warnOfScript(const InjectOptions& options) {
         while (!rest.empty()) {
             const std::string folder = rest.substr(0, rest.find(':'));
             rest.erase(0, std::min(folder.size() + 1, rest.size()));
-            if (::access((folder + "/" + path).c_str(), X_OK) == 0) {
-                path = folder + "/" + path;
+            const std::string candidate = fmt::format("{}/{}", folder, path);
+            if (::access(candidate.c_str(), X_OK) == 0) {
+                path = candidate;
                 break;
             }
         }
