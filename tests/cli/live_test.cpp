@@ -91,6 +91,22 @@ TEST_F(Live, WhatComesGoesAndMovesIsThatOfTheSimulatedFiles) {
     }
 }
 
+TEST_F(Live, EllipsoidsAreDrawnIfTheSceneAsksAndAreTheSameInAProcessOfTheirOwn) {
+    writeFluid("s.json");
+    nlohmann::json scene = nlohmann::json::parse(read("s.json"));
+    scene["simulation"]["anisotropy"]["ratio"] = 4;
+    write("shaped.json", scene.dump());
+    scene["fluid"]["ellipsoids"] = false;
+    write("round.json", scene.dump());
+    (void)render("s.json -o spheres.png --frames 4..4");
+    EXPECT_EQ(render("shaped.json -o one.png --frames 4..4 --validation")["validation_messages"], 0);
+    (void)render("shaped.json -o two.png --frames 4..4 --isolate");
+    (void)render("round.json -o round.png --frames 4..4");
+    EXPECT_FALSE(read("one.png") == read("spheres.png"));
+    EXPECT_TRUE(read("two.png") == read("one.png"));
+    EXPECT_TRUE(read("round.png") == read("spheres.png"));
+}
+
 TEST_F(Live, AMeshIsASolidAndIsDrawn) {
     writeFluid("s.json");
     nlohmann::json scene = nlohmann::json::parse(read("s.json"));
