@@ -96,6 +96,8 @@ void readWater(scene::ObjectReader& from, inject::WaterPlan& water) {
     addEmitters(emitters, water);
     from.integer("from_frame", water.from_frame, 0, 1'000'000'000);
     from.integer("max_particles", water.max_particles, 0, 1'000'000);
+    from.integer("depth_scale", water.depth_scale, 0, 8);
+    from.number("depth_thickness", water.depth_thickness, scene::Range{0.0, 10.0});
     if (std::all_of(water.up.begin(), water.up.end(), [](float value) { return value == 0.0F; })) {
         from.fail("up", "a direction", "[0, 0, 0]");
     }

@@ -363,6 +363,48 @@ TEST(Api, AFlowIsChangedWhileItFlowsAndKeptInAnotherContext) {
     EXPECT_EQ(log.lines, std::vector<std::string>{});
 }
 
+/// Fluid falls away from the camera; behind a wall of depth alone, half a metre behind the fluid, it would not be seen.
+int seenAfterItsFall(std::uint32_t depth_scale) {
+    const EglCaller caller({});
+    const Buffers screen(kWidth, kHeight, {});
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_SAME));
+    SluiceWater water{};
+    sluice_water_defaults(&water, sizeof(water));
+    water.radius = 0.1F;
+    SluiceBlock block{};
+    for (const std::size_t axis : {0U, 1U, 2U}) {
+        water.low[axis] = -2.0F;
+        water.high[axis] = 2.0F;
+        water.gravity[axis] = axis == 2 ? -9.81F : 0.0F;
+        block.low[axis] = -0.5F;
+        block.high[axis] = 0.5F;
+    }
+    water.blocks = &block;
+    water.block_count = 1;
+    water.depth_scale = depth_scale;
+    EXPECT_EQ(sluice_set_water(fluid.get(), &water), SLUICE_OK) << sluice_last_error(fluid.get());
+    const Camera eye = camera();
+    constexpr double kWall = 5.0;  // metres before the camera, which is 4 m before the origin
+    const double depth = 0.5 - 0.5 * (double{eye.projection[10]} - double{eye.projection[14]} / kWall);
+    int seen = 0;
+    for (int k = 0; k < 16; ++k) {
+        EXPECT_EQ(sluice_begin_frame(fluid.get(), eye.view.data(), eye.projection.data(), 0.05 * k), SLUICE_OK);
+        glClearDepth(depth);
+        glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+        const auto before = pixels(screen.name());
+        EXPECT_EQ(sluice_end_frame(fluid.get()), SLUICE_OK) << sluice_last_error(fluid.get());
+        seen = changed(before, pixels(screen.name()), 0, kWidth);
+    }
+    EXPECT_EQ(log.lines, std::vector<std::string>{});
+    return seen;
+}
+
+TEST(Api, FluidCollidesWithTheEnginesDepth) {
+    EXPECT_EQ(seenAfterItsFall(0), 0) << "through the wall, out of sight";
+    EXPECT_GT(seenAfterItsFall(2), 100);
+}
+
 TEST(Api, InAProcessOfItsOwn) {
     const EglCaller caller({});
     const Buffers screen(kWidth, kHeight, {});

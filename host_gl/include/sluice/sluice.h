@@ -162,6 +162,10 @@ typedef struct SluiceWater {
     const SluiceMesh* meshes;
     const float* mesh_corners;
     const uint32_t* mesh_indices;
+    /* The fluid collides with what the engine's depth shows, a frame late: pixels each way that become one, 1..8, of which 4
+     * is a good start; 0: it does not. Needs a view that turns and moves and does not scale. */
+    uint32_t depth_scale;
+    float depth_thickness; /* metres behind what is seen that are solid; 0: eight radii */
 } SluiceWater;
 SLUICE_EXPORT void sluice_water_defaults(SluiceWater* water, size_t struct_size);
 

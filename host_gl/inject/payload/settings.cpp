@@ -93,6 +93,9 @@ void readWater(std::string_view key, Words& line, WaterPlan& water) {
         }
     } else if (key == "water.most") {
         line.read(water.max_particles);
+    } else if (key == "water.depth") {
+        line.read(water.depth_scale);
+        line.read(water.depth_thickness);
     } else if (key == "water.from") {
         line.read(water.from_frame);
     } else if (key == "water.world") {
@@ -175,6 +178,7 @@ std::string printWater(const WaterPlan& water) {
     }
     text += water.from_frame == 0 ? "" : fmt::format("water.from {}\n", water.from_frame);
     text += water.max_particles == 0 ? "" : fmt::format("water.most {}\n", water.max_particles);
+    text += fmt::format("water.depth {} {}\n", water.depth_scale, water.depth_thickness);
     return text;
 }
 

@@ -22,8 +22,7 @@ struct WaterBlock {
 
 /// Where water comes from and what it may fill. Metres.
 struct WaterPlan {
-    bool in_view = true;    ///< placed before the eye of the first frame that has fluid; else in the program's world
-    bool automatic = true;  ///< sized by what the eye sees; else by what follows
+    bool in_view = true;  ///< placed before the eye of the first frame that has fluid; else in the program's world
     float units_per_metre = 0;  ///< of the program; 0: from the distance of what is seen
     Triple up{0, 1, 0};         ///< of the program's world
     float radius = 0.05F;       ///< of a particle
@@ -35,6 +34,8 @@ struct WaterPlan {
     std::vector<SluiceEmitter> emitters;
     std::uint32_t from_frame = 0;     ///< before it there is no fluid, and the eye of that frame is the first
     std::uint32_t max_particles = 0;  ///< at which emitters stop; 0: the library's choice
+    std::uint32_t depth_scale = 4;    ///< pixels each way of the program's depth that are one as a solid; 0: it is none
+    float depth_thickness = 0;        ///< metres behind what is seen that are solid; 0: the library's choice
 };
 
 struct Settings {

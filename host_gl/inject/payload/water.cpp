@@ -194,6 +194,8 @@ class LibraryWater final : public Water {
         water.emitters = plan.emitters.data();
         water.emitter_count = static_cast<std::uint32_t>(plan.emitters.size());
         water.max_particles = plan.max_particles;
+        water.depth_scale = plan.depth_scale;
+        water.depth_thickness = plan.depth_thickness;
         const SluiceResult result = api_.setWater(fluid_, &water);
         return result == SLUICE_OK ? Status{} : failure(result, fluid_);
     }

@@ -85,6 +85,7 @@ class Session {
     KeptScene scene_;                 ///< environment and simulation, for another context
     std::optional<SluiceFlow> flow_;  ///< of that simulation, if it was changed
     bool has_water_ = false;
+    bool meets_depth_ = false;     ///< the fluid collides with what the engine's depth shows
     std::uint32_t particles_ = 0;  ///< at the start
     SluiceFluid look_{};
     SluiceSky sky_{};

@@ -95,6 +95,7 @@ Status Session::draw() {
     input.sky = sky_;
     input.fluid = look_;
     input.simulation = value_;
+    input.flags = meets_depth_ ? SLUICE_FRAME_CAPTURE_DEPTH : 0;
     if (Status status = host_->submit(source, input); !status) {
         // Without a renderer nothing flows; the number is spent all the same.
         pending_ = false;
@@ -126,6 +127,7 @@ Status Session::setWater(const SluiceWater* asked) {
     scene_.keep(asked != nullptr ? &simulation : nullptr);
     flow_.reset();
     has_water_ = asked != nullptr;
+    meets_depth_ = simulation.depth_scale != 0;
     particles_ = water.count();
     value_ = 0;
     owed_ = 0.0;

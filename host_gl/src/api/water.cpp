@@ -207,6 +207,8 @@ SluiceSimulation settingsOf(const SluiceWater& asked, std::uint32_t particles) {
     s.mesh_corners = asked.mesh_corners;
     s.mesh_triangle_count = asked.mesh_triangle_count;
     s.mesh_indices = asked.mesh_indices;
+    s.depth_scale = asked.depth_scale;
+    s.depth_thickness = asked.depth_thickness;
     return s;
 }
 
