@@ -2,6 +2,7 @@
 #include "app/inject.hpp"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -124,6 +125,8 @@ int runAndReport(const InjectOptions& options, const std::string& folder) {
     if (WIFSIGNALED(status)) {
         // Ends as the program did, so that a shell sees the same; without a core of its own.
         (void)std::signal(WTERMSIG(status), SIG_DFL);
+        const rlimit no_core{0, 0};
+        (void)::setrlimit(RLIMIT_CORE, &no_core);
         std::error_code ignored;
         std::filesystem::remove_all(folder, ignored);
         (void)::raise(WTERMSIG(status));

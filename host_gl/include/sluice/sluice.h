@@ -36,7 +36,9 @@
  *   negative SluiceResult; sluice_last_error has the text; the log hears of each failure once, however often it comes
  *   back. Every function takes a NULL Sluice and returns SLUICE_ERROR_INVALID_ARGUMENT, so that an engine need not look
  *   at the results at all. The renderer runs in a process of its own unless asked otherwise: if it crashes or hangs,
- * the engine goes on without fluid and gets another one a few frames later.
+ *   the engine goes on without fluid and gets another one a few frames later. It is a child of the engine's process: an
+ *   engine that waits until it has no child left waits for it, too. A renderer that hangs while it starts can hold
+ *   sluice_begin_frame or sluice_end_frame for up to two minutes.
  *
  * OWNERSHIP, THREADS
  *   What is passed in is copied during the call. Everything on the thread on which the context is current. The log
@@ -44,8 +46,8 @@
  *
  * UNITS
  *   As in sluice/plugin.h: metres, seconds, right-handed world, matrices in the column order of glLoadMatrixf. An
- * engine whose unit is not a metre scales: of `view` take the inverse scale into account, and of the fluid's box the
- * scale.
+ *   engine whose unit is not a metre scales: of `view` take the inverse scale into account, and of the fluid's box the
+ *   scale.
  *
  * GROWTH
  *   As in sluice/plugin.h: structs by pointer begin with struct_size, which sluice_*_defaults sets and which may be set
@@ -162,8 +164,8 @@ typedef struct SluiceWater {
     const SluiceMesh* meshes;
     const float* mesh_corners;
     const uint32_t* mesh_indices;
-    /* The fluid collides with what the engine's depth shows, a frame late: pixels each way that become one, 1..8, of which 4
-     * is a good start; 0: it does not. Needs a view that turns and moves and does not scale. */
+    /* The fluid collides with what the engine's depth shows, a frame late: pixels each way that become one, 1..8, of
+     * which 4 is a good start; 0: it does not. Needs a view that turns and moves and does not scale. */
     uint32_t depth_scale;
     float depth_thickness; /* metres behind what is seen that are solid; 0: eight radii */
 } SluiceWater;

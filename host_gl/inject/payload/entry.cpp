@@ -2,6 +2,7 @@
 // The table that the shim calls. No exception leaves it, and whatever fails leaves the program as it would be without
 // us.
 #include <dlfcn.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -253,7 +254,11 @@ extern "C" __attribute__((visibility("default"))) const SluiceInjectPayload* slu
         }
         process = made.release();
         // At exit the window and its context may be gone already: nothing but the report is done then.
+        static const pid_t own = ::getpid();
         (void)std::atexit([] {
+            if (::getpid() != own) {
+                return;  // a child that was forked and could not exec: neither the report nor the renderer is its own
+            }
             try {
                 report(nullptr, true);
             } catch (...) {

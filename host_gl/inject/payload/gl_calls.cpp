@@ -5,6 +5,8 @@
 #include <epoxy/gl.h>
 
 #include <array>
+#include <cstdio>
+#include <string>
 #include <string_view>
 
 namespace sluice::inject {
@@ -27,6 +29,22 @@ std::int32_t integer(const GlCalls& gl, GLenum name) {
     std::int32_t value = 0;
     gl.getIntegerv(name, &value);
     return value;
+}
+
+/// Without a call that would be an error, of which a debug callback of the program's would hear.
+bool hasFixedFunction(const GlCalls& gl, std::string_view version) {
+    int major = 0;
+    int minor = 0;
+    if (std::sscanf(std::string(version).c_str(), "%d.%d", &major, &minor) != 2 || 10 * major + minor < 31) {
+        return true;
+    }
+    if (10 * major + minor == 31) {
+        std::array<float, 16> projection{};  // as many extension lists as drivers; the question itself
+        gl.getFloatv(GL_PROJECTION_MATRIX, projection.data());
+        return gl.getError() == GL_NO_ERROR;
+    }
+    const std::int32_t profile = integer(gl, GL_CONTEXT_PROFILE_MASK);
+    return (profile & GL_CONTEXT_COMPATIBILITY_PROFILE_BIT) != 0 || profile == 0;
 }
 
 }  // namespace
@@ -100,15 +118,17 @@ DrawableSize drawableSize(const GlCalls& gl, const CurrentContext& current) {
     return {};
 }
 
+void forgetErrors(const GlCalls& gl) {
+    for (int i = 0; i < 8 && gl.getError() != GL_NO_ERROR; ++i) {  // a lost context has no end of them
+    }
+}
+
 ContextFacts contextFacts(const GlCalls& gl) {
     ContextFacts facts;
     facts.renderer = text(gl, GL_RENDERER);
     facts.version = text(gl, GL_VERSION);
     facts.embedded = std::string_view(facts.version).starts_with("OpenGL ES");
-    // Versions and profile bits say less than the question itself.
-    std::array<float, 16> projection{};
-    gl.getFloatv(GL_PROJECTION_MATRIX, projection.data());
-    facts.compatibility = !facts.embedded && gl.getError() == GL_NO_ERROR;
+    facts.compatibility = !facts.embedded && hasFixedFunction(gl, facts.version);
     facts.samples = integer(gl, GL_SAMPLES);
     if (facts.compatibility || facts.embedded || gl.getAttachment == nullptr) {
         facts.depth_bits = integer(gl, GL_DEPTH_BITS);

@@ -60,5 +60,7 @@ struct ContextFacts {
     std::int32_t depth_bits = 0, stencil_bits = 0, samples = 0;
 };
 [[nodiscard]] ContextFacts contextFacts(const GlCalls& gl);
+/// Those of our own making; the program's must have been kept before.
+void forgetErrors(const GlCalls& gl);
 
 }  // namespace sluice::inject

@@ -82,8 +82,7 @@ Session::Session(Payload& payload, const CurrentContext& current)
     payload.gl.getIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
     (void)tracker_.bindFramebuffer(static_cast<std::uint32_t>(framebuffer));
     scanPrograms();
-    while (payload.gl.getError() != GL_NO_ERROR) {  // what an old context does not know of the above
-    }
+    forgetErrors(payload.gl);  // what an old context does not know of the above
 }
 
 /// Errors that the program has not asked for yet would be lost among ours.
@@ -196,16 +195,22 @@ void Session::beforeBind(std::uint32_t framebuffer) {
 
 /// Into the default framebuffer, whatever is bound. A scene in another one has been read by now.
 void Session::composeAtSwap() {
-    const std::uint32_t bound = tracker_.framebuffer();
-    if (tracker_.target() != 0) {
+    if (tracker_.target() != 0 || passive()) {
         return;
     }
-    if (bound != 0 && payload_.gl.bindFramebuffer != nullptr) {
+    // GL's own word for it: a framebuffer that has been deleted is bound no more, and nobody told.
+    GLint bound = 0;
+    if (payload_.gl.bindFramebuffer != nullptr) {
+        keepErrors();
+        payload_.gl.getIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &bound);
+        bound = payload_.gl.getError() == GL_NO_ERROR ? bound : 0;
+    }
+    if (bound != 0) {
         payload_.gl.bindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
     }
     composeNow();
-    if (bound != 0 && payload_.gl.bindFramebuffer != nullptr) {
-        payload_.gl.bindFramebuffer(GL_DRAW_FRAMEBUFFER, bound);
+    if (bound != 0) {
+        payload_.gl.bindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<std::uint32_t>(bound));
     }
 }
 
@@ -242,11 +247,14 @@ double Session::time() const {
                                       : seconds(Clock::now().time_since_epoch());
 }
 
+bool Session::passive() const {
+    return payload_.settings.off || !failure_.empty() || facts_.embedded;
+}
+
 void Session::composeNow() {
     composed_ = true;
     const std::optional<FoundCamera> camera = tracker_.camera();
-    if (payload_.settings.off || frames_ < payload_.settings.water.from_frame || !failure_.empty() || facts_.embedded ||
-        !camera || size_.width == 0) {
+    if (passive() || frames_ < payload_.settings.water.from_frame || !camera || size_.width == 0) {
         return;
     }
     const Timed timed(in_frame_);
@@ -291,6 +299,24 @@ Status Session::compose(const FoundCamera& camera) {
     return water_->compose(camera, time());
 }
 
+/// Whether one pixel of depth that is read is one float, and the one that the buffer holds.
+bool Session::readsPlainly() const {
+    for (const std::uint32_t name : {GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES}) {
+        GLint value = 0;
+        payload_.gl.getIntegerv(name, &value);
+        if (value != 0) {
+            return false;
+        }
+    }
+    float scale = 1.0F;
+    float bias = 0.0F;
+    if (facts_.compatibility) {
+        payload_.gl.getFloatv(GL_DEPTH_SCALE, &scale);
+        payload_.gl.getFloatv(GL_DEPTH_BIAS, &bias);
+    }
+    return scale == 1.0F && bias == 0.0F;
+}
+
 /// The median distance of what the eye sees, from a grid of depths of the frame; 0 if it sees nothing.
 double Session::seenDistance(const FoundCamera& camera) const {
     constexpr int kAcross = 9;
@@ -298,7 +324,7 @@ double Session::seenDistance(const FoundCamera& camera) const {
     GLint buffer = 0;
     payload_.gl.getIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read);
     payload_.gl.getIntegerv(GL_PIXEL_PACK_BUFFER_BINDING, &buffer);
-    if (buffer != 0 || static_cast<std::uint32_t>(read) != tracker_.target()) {
+    if (buffer != 0 || static_cast<std::uint32_t>(read) != tracker_.target() || !readsPlainly()) {
         return 0.0;  // what is read would go elsewhere, or come from there
     }
     std::vector<double> distances;
@@ -316,8 +342,7 @@ double Session::seenDistance(const FoundCamera& camera) const {
             }
         }
     }
-    while (payload_.gl.getError() != GL_NO_ERROR) {  // a framebuffer of several samples, for one
-    }
+    forgetErrors(payload_.gl);  // a framebuffer of several samples, for one
     if (distances.empty()) {
         return 0.0;
     }

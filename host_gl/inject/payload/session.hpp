@@ -72,6 +72,7 @@ class Session {
     [[nodiscard]] std::thread::id thread() const { return thread_; }
 
   private:
+    [[nodiscard]] bool passive() const;  ///< no fluid will come: nothing of GL's is touched
     void composeNow();
     void composeAtSwap();
     void composeAudited(const FoundCamera& camera);
@@ -79,6 +80,7 @@ class Session {
     void scanPrograms();
     UniformName nameOf(std::uint32_t program, std::int32_t location);
     void keepErrors();
+    [[nodiscard]] bool readsPlainly() const;
     [[nodiscard]] double seenDistance(const FoundCamera& camera) const;
     [[nodiscard]] double time() const;
 

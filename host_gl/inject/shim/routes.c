@@ -68,19 +68,24 @@ SWAP_WITH_DAMAGE(eglSwapBuffersWithDamageEXT)
 
 /* A toolkit's swap ends in one of the above, which then is the end of the frame. Where it does not (a toolkit that
  * binds its driver's functions as nobody can see), the next one counts itself. They return nothing, or a truth value
- * (SDL 3). */
-#define TOOLKIT_SWAP(name, parameters, arguments)                           \
-    int name parameters {                                                   \
-        typedef int(*Real) parameters;                                      \
-        static int counts_itself;                                           \
-        const Real real = SHIM_REAL(name, Real);                            \
-        const unsigned before = swaps;                                      \
-        if (counts_itself) {                                                \
-            end_frame(SLUICE_INJECT_ANY, NULL, 0, HOOK_##name);             \
-        }                                                                   \
-        const int answer = real == NULL ? 0 : real arguments;               \
-        counts_itself = counts_itself || (real != NULL && swaps == before); \
-        return answer;                                                      \
+ * (SDL 3). One that skips a swap, of a hidden window, is no such toolkit: it takes several in a row. */
+enum { ENOUGH_MISSES = 3 };
+#define TOOLKIT_SWAP(name, parameters, arguments)                   \
+    int name parameters {                                           \
+        typedef int(*Real) parameters;                              \
+        static int counts_itself;                                   \
+        const Real real = SHIM_REAL(name, Real);                    \
+        if (counts_itself == ENOUGH_MISSES) {                       \
+            end_frame(SLUICE_INJECT_ANY, NULL, 0, HOOK_##name);     \
+        }                                                           \
+        const unsigned before = swaps;                              \
+        const int answer = real == NULL ? 0 : real arguments;       \
+        if (swaps != before) {                                      \
+            counts_itself = 0;                                      \
+        } else if (real != NULL && counts_itself < ENOUGH_MISSES) { \
+            ++counts_itself;                                        \
+        }                                                           \
+        return answer;                                              \
     }
 TOOLKIT_SWAP(SDL_GL_SwapWindow, (void* window), (window))
 TOOLKIT_SWAP(SDL_GL_SwapBuffers, (void), ())

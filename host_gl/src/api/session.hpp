@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "api/camera.hpp"
 #include "api/current_context.hpp"
@@ -113,7 +114,8 @@ class Session {
     std::uint64_t frames_ = 0, frames_without_ = 0;
     double end_frame_seconds_ = 0.0, wait_seconds_ = 0.0;
     Timings timings_;
-    std::string last_error_, last_told_;
+    std::string last_error_;
+    std::vector<std::string> told_;  ///< to the log since the last good frame
 };
 
 }  // namespace sluice::host

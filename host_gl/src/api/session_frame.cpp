@@ -16,6 +16,12 @@
 
 namespace sluice::host {
 
+namespace {
+
+constexpr std::size_t kMostTold = 16;  // messages between two good frames: a text that counts would fill the log
+
+}  // namespace
+
 Status Session::endFrame() {
     if (!in_frame_) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame", "no frame has begun",
@@ -36,7 +42,7 @@ Status Session::endFrame() {
     }
     ++(status ? frames_ : frames_without_);
     if (status) {
-        last_told_.clear();
+        told_.clear();
     }
     return status;
 }
@@ -254,10 +260,13 @@ SluiceResult Session::told(const Status& status) {
     last_error_ = status.error().message();
     // The FluidHost itself tells of a renderer that it replaces, with what it is about to do.
     const bool known = host_ != nullptr && host_->recovering();
-    if (last_error_ != last_told_ && !known) {
-        log_(SLUICE_LOG_ERROR, last_error_);
+    const bool news = std::find(told_.begin(), told_.end(), last_error_) == told_.end();
+    if (news && told_.size() < kMostTold) {
+        told_.push_back(last_error_);
+        if (!known) {
+            log_(SLUICE_LOG_ERROR, last_error_);
+        }
     }
-    last_told_ = last_error_;
     return status.error().code;
 }
 

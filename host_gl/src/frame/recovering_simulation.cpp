@@ -116,6 +116,11 @@ Status RecoveringHost::simulateAgain(const SluiceSimulation& simulation) {
     Status status = life_->setSimulation(&simulation);
     if (status && flow_) {
         status = life_->setFlow(*flow_);
+        if (refused(status)) {
+            drop("flow", status.error());  // given while there was no renderer to look at it
+            flow_.reset();
+            status = {};
+        }
     }
     if (!status || asked_ == 0) {
         return status;

@@ -152,6 +152,9 @@ Status LiveSimulation::simulate(std::uint64_t value, double seconds) {
     }
     requests_.push_back({value, seconds, std::exchange(asked_, {}), std::move(flow_)});
     stats_.asked = value;
+    if (value > slots_->count()) {
+        seen_.passed(value - slots_->count());  // fluid() refuses it from now on
+    }
     changed_.notify_all();
     return {};
 }
@@ -221,7 +224,7 @@ std::string LiveSimulation::late() const {
 Result<std::shared_ptr<const Buffer>> LiveSimulation::captureRoom(const Device& device, std::uint64_t value,
                                                                   VkDeviceSize bytes) {
     const std::lock_guard lock(mutex_);
-    if (depth_scale_ == 0 || seen_.known(value)) {
+    if (depth_scale_ == 0 || stats_.failed != 0 || seen_.known(value)) {
         return std::shared_ptr<const Buffer>{};
     }
     return seen_.room(device, bytes);
@@ -329,6 +332,7 @@ void LiveSimulation::reach(const Request& request) {
 Status LiveSimulation::advance(const Request& request) {
     {
         const std::lock_guard lock(mutex_);
+        seen_.forget(seen_.sourceOf(request.value));  // here, since a value without a step does not look
         if (stats_.failed != 0) {
             return {};  // the last good state it is, from now on
         }
@@ -389,16 +393,9 @@ Status LiveSimulation::look(std::uint64_t value) {
     {
         std::unique_lock lock(mutex_);
         const std::uint64_t source = depth_scale_ == 0 ? 0 : seen_.sourceOf(value);
-        if (!changed_.wait_for(lock, std::chrono::nanoseconds(FrameRing::kPatienceNs),
-                               [&] { return stop_ || seen_.known(source); })) {
-            return Error{SLUICE_ERROR_INTERNAL, fmt::format("simulation value {}", value),
-                         fmt::format("it collides with the depth of the frame that draws value {}, which did not come "
-                                     "in {} s",
-                                     source, FrameRing::kPatienceNs / 1'000'000'000),
-                         "draw the values in order, or ask for fewer ahead of the frames"};
-        }
+        // However long the host's next frame takes: who draws this value, or asks for later ones, ends the wait.
+        changed_.wait(lock, [&] { return stop_ || seen_.known(source); });
         depth = seen_.at(source);
-        seen_.forget(source);
     }
     if (depth.buffer == nullptr || depth.buffer == seen_by_) {
         return {};
