@@ -301,7 +301,8 @@ Status Session::compose(const FoundCamera& camera) {
 
 /// Whether one pixel of depth that is read is one float, and the one that the buffer holds.
 bool Session::readsPlainly() const {
-    for (const std::uint32_t name : {GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES}) {
+    for (const std::uint32_t name :
+         std::array<std::uint32_t, 3>{GL_PACK_SKIP_ROWS, GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES}) {
         GLint value = 0;
         payload_.gl.getIntegerv(name, &value);
         if (value != 0) {
