@@ -194,6 +194,19 @@ TEST(SeenDepths, EachValueHasTheDepthOfAFrameThatIsKnownByNumber) {
     EXPECT_EQ(depths.at(7).buffer, fifth);
 }
 
+TEST_F(LiveFluid, WaitsForNoDepthOfAValueThatCanBeDrawnNoMore) {
+    Block block;
+    block.simulation.depth_scale = 2;
+    ASSERT_NO_FATAL_FAILURE(start(block));
+    for (std::uint64_t value = 1; value <= 6; ++value) {
+        ASSERT_EQ(simulate(value, kFrame), SLUICE_OK) << said.message;
+    }
+    // Two slots: a frame may still draw values 5 and 6, and 6 collides with what the frame of 5 shows.
+    EXPECT_EQ(api().simulation_wait(renderer->get(), 5, kLong), SLUICE_OK);
+    EXPECT_EQ(stats().failed, 0U) << stats().message;
+    renderer->destroy();
+}
+
 TEST_F(LiveFluid, WaitsForTheDepthOfTheFrameThatItCollidesWith) {
     constexpr std::uint64_t kValues = 6;
     for (const std::uint32_t in_flight : {1U, 2U, 3U}) {
