@@ -96,6 +96,21 @@ Surroundings Solver::State::surroundings() const {
             counts.living};
 }
 
+Status Solver::State::runTimed(const std::function<void(VkCommandBuffer)>& record) {
+    Status done = runOnce(device, [&](VkCommandBuffer commands) {
+        memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
+                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
+                          VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
+        timer.begin(commands);
+        record(commands);
+    });
+    if (done) {
+        timer.collect();
+    }
+    return done;
+}
+
 Status Solver::ellipsoids(const Anisotropy& how, VkBuffer to, const PlaceBuffers& places) {
     State& s = *state_;
     if (Status status = checkAnisotropy(how); !status) {
@@ -114,11 +129,10 @@ Status Solver::ellipsoids(const Anisotropy& how, VkBuffer to, const PlaceBuffers
     if (around.entries == 0) {
         return {};
     }
-    const auto texels = [&s](Slot slot) { return s.buffers.texels.at(static_cast<std::size_t>(slot)).handle; };
     const std::array bindings{
         PassBinding{kAnisotropyBindings[0], s.buffers[Slot::Parameters].buffer()},
-        PassBinding{kAnisotropyBindings[1], VK_NULL_HANDLE, texels(Slot::Sorted)},
-        PassBinding{kAnisotropyBindings[2], VK_NULL_HANDLE, texels(Slot::List)},
+        PassBinding{kAnisotropyBindings[1], VK_NULL_HANDLE, s.texels(Slot::Sorted)},
+        PassBinding{kAnisotropyBindings[2], VK_NULL_HANDLE, s.texels(Slot::List)},
         PassBinding{kAnisotropyBindings[3], s.buffers[Slot::ListCount].buffer()},
         PassBinding{kAnisotropyBindings[4], around.position},
         PassBinding{kAnisotropyBindings[5], around.identity},
@@ -129,19 +143,10 @@ Status Solver::ellipsoids(const Anisotropy& how, VkBuffer to, const PlaceBuffers
     };
     s.anisotropy.bind(bindings);
     const AnisotropyPush push{around.entries, around.moved, how.ratio, how.smoothing, how.lonely, places ? 1U : 0U};
-    Status done = runOnce(s.device, [&](VkCommandBuffer commands) {
-        memoryBarrier(s.device, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
-                      VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                      VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                          VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
-        s.timer.begin(commands);
+    return s.runTimed([&](VkCommandBuffer commands) {
         s.anisotropy.dispatch(commands, std::as_bytes(std::span(&push, 1)), groupsOf(around.entries, kGroup));
         s.timer.mark(commands, "anisotropy");
     });
-    if (done) {
-        s.timer.collect();
-    }
-    return done;
 }
 
 }  // namespace sluice::vk

@@ -2,6 +2,7 @@
 // What a solver holds, and how it takes one step. For solver.cpp and solver_step.cpp alone.
 #pragma once
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -81,6 +82,12 @@ struct Solver::State {
     [[nodiscard]] Status search();
     /// After a step or a search.
     [[nodiscard]] Surroundings surroundings() const;
+    /// What a pass reads of that buffer as texels.
+    [[nodiscard]] VkBufferView texels(Slot slot) const {
+        return buffers.texels.at(static_cast<std::size_t>(slot)).handle;
+    }
+    /// Runs commands of compute passes behind all that has been written, times them, and waits for them.
+    [[nodiscard]] Status runTimed(const std::function<void(VkCommandBuffer)>& record);
     [[nodiscard]] Result<StepStatus> tryStep(float dt);
     /// Buffers and a grid for so many. On an error everything is as before.
     [[nodiscard]] Status makeRoom(std::uint32_t particles, bool keep_state);

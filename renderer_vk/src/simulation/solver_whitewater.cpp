@@ -29,13 +29,6 @@ constexpr auto kBindings = [] {
     return types;
 }();
 
-void afterCompute(const Device& device, VkCommandBuffer commands) {
-    memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
-                  VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT,
-                  VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT |
-                      VK_ACCESS_2_SHADER_SAMPLED_READ_BIT);
-}
-
 }  // namespace
 
 Status checkWhitewater(const Whitewater& how) {
@@ -68,12 +61,11 @@ Status Solver::whitewater(const Whitewater& how, VkBuffer to, const PlaceBuffers
     if (around.entries == 0) {
         return {};
     }
-    const auto texels = [&s](Slot slot) { return s.buffers.texels.at(static_cast<std::size_t>(slot)).handle; };
     const std::array bindings{
         PassBinding{kBindings[0], s.buffers[Slot::Parameters].buffer()},
-        PassBinding{kBindings[1], VK_NULL_HANDLE, texels(Slot::Sorted)},
-        PassBinding{kBindings[2], VK_NULL_HANDLE, texels(Slot::List)},
-        PassBinding{kBindings[3], VK_NULL_HANDLE, texels(Slot::Walls)},
+        PassBinding{kBindings[1], VK_NULL_HANDLE, s.texels(Slot::Sorted)},
+        PassBinding{kBindings[2], VK_NULL_HANDLE, s.texels(Slot::List)},
+        PassBinding{kBindings[3], VK_NULL_HANDLE, s.texels(Slot::Walls)},
         PassBinding{kBindings[4], s.buffers[Slot::ListCount].buffer()},
         PassBinding{kBindings[5], around.position},
         PassBinding{kBindings[6], onDevice().velocity},
@@ -85,17 +77,11 @@ Status Solver::whitewater(const Whitewater& how, VkBuffer to, const PlaceBuffers
     };
     s.whitewater.bind(bindings);
     const Push push{how, around.entries, around.moved, places ? 1U : 0U};
-    Status done = runOnce(s.device, [&](VkCommandBuffer commands) {
-        afterCompute(s.device, commands);
-        s.timer.begin(commands);
+    return s.runTimed([&](VkCommandBuffer commands) {
         s.run(commands, Kernel::Surface, groupsOf(around.moved, kGroup));
         s.whitewater.dispatch(commands, std::as_bytes(std::span(&push, 1)), groupsOf(around.entries, kGroup));
         s.timer.mark(commands, "whitewater");
     });
-    if (done) {
-        s.timer.collect();
-    }
-    return done;
 }
 
 }  // namespace sluice::vk
