@@ -13,6 +13,7 @@
 #include "app/render_files.hpp"
 #include "app/render_inputs.hpp"
 #include "app/render_run.hpp"
+#include "image/files.hpp"
 
 namespace sluice::cli {
 namespace {
@@ -87,6 +88,10 @@ int renderChecked(const RenderOptions& options, RenderInputs inputs) {
     if (const Status status = checkRoles(options, inputs); !status) {
         logError(status.error());
         return kExitUsage;
+    }
+    if (const Status status = imageFilesPossible(); !status) {
+        logError(status.error());
+        return kExitInternal;
     }
     OutputFolders folders;
     if (const Status status = prepareOutputs(folders, options, inputs.frames); !status) {

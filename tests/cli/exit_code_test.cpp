@@ -149,6 +149,22 @@ TEST_F(ExitCode, AMissingOrBrokenPluginIsThreeAndTheFrameIsStillWritten) {
     EXPECT_EQ(run("explain s.json --plugin /nonexistent/plugin.so").code, 3);
 }
 
+TEST_F(ExitCode, WithoutTheModuleForPicturesARenderIsFourBeforeItsFirstFrameAndTheRestRuns) {
+    writeParticles("p.pos", 4);
+    writeScene("s.json", "p.pos");
+    // $0 is the program: a copy of it stands alone.
+    const std::string alone = R"(sh -c 'mkdir -p bin; cp -n "$0" bin/sluice; exec bin/sluice "$@"')";
+    const Outcome missing = run("render s.json -o new/a.png --no-fluid", alone);
+    EXPECT_EQ(missing.code, 4) << missing.err;
+    EXPECT_THAT(missing.err, HasSubstr("bin/libsluice_images.so and "));
+    write("bin/libsluice_images.so", "not a shared object");
+    const Outcome broken = run("render s.json -o new/a.png --no-fluid", alone);
+    EXPECT_EQ(broken.code, 4) << broken.err;
+    EXPECT_THAT(broken.err, HasSubstr("libsluice_images.so"));
+    EXPECT_THAT(files(), ElementsAre("bin", "p.pos", "s.json"));
+    EXPECT_EQ(run("convert p.pos q.pos", alone).code, 0);
+}
+
 TEST_F(ExitCode, AnOutputThatCannotBeWrittenIsFourAndLeavesNoTemporary) {
     writeParticles("p.pos", 4);
     writeScene("s.json", "p.pos");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/exr.hpp"
+#include "image/module/functions.hpp"
 
 #include <OpenImageIO/imageio.h>
 
@@ -7,7 +7,7 @@
 
 #include "image/atomic_file.hpp"
 
-namespace sluice::cli {
+namespace sluice::cli::images {
 
 Status writeExr(const std::filesystem::path& path, const LayeredImage& image) {
     Result<AtomicFile> file = AtomicFile::create(path);
@@ -49,4 +49,4 @@ Status writeExr(const std::filesystem::path& path, const LayeredImage& image) {
     return file.value().commit();
 }
 
-}  // namespace sluice::cli
+}  // namespace sluice::cli::images

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/environment.hpp"
+#include "image/module/functions.hpp"
 
 #include <OpenImageIO/imageio.h>
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 #include "image/colour.hpp"
 #include "sluice/plugin.h"
 
-namespace sluice::cli {
+namespace sluice::cli::images {
 namespace {
 
 constexpr int kMaxSide = SLUICE_MAX_EXTENT;  ///< a map of that size is 3 GiB in floats; larger is a mistake
@@ -65,4 +65,4 @@ Result<Environment> loadEnvironment(const std::filesystem::path& path) {
     return map;
 }
 
-}  // namespace sluice::cli
+}  // namespace sluice::cli::images

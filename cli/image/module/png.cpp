@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "image/png.hpp"
+#include "image/module/functions.hpp"
 
 #include <OpenImageIO/imageio.h>
 
@@ -10,7 +10,7 @@
 
 #include "image/atomic_file.hpp"
 
-namespace sluice::cli {
+namespace sluice::cli::images {
 
 Status writePng(const std::filesystem::path& path, const host::Pixels& pixels) {
     assert(pixels.channels >= 3);
@@ -41,4 +41,4 @@ Status writePng(const std::filesystem::path& path, const host::Pixels& pixels) {
     return file.value().commit();
 }
 
-}  // namespace sluice::cli
+}  // namespace sluice::cli::images
