@@ -26,6 +26,16 @@ Status checkArrays(const SluiceSimulation& simulation) {
     return status;
 }
 
+Status checkArrays(const SluiceStart& start) {
+    if (start.particle_count > kMostSimulatedParticles || (start.particle_count > 0 && start.position == nullptr)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "start.position",
+                     fmt::format("expected at most {}, found {}{}", kMostSimulatedParticles, start.particle_count,
+                                 start.position == nullptr ? " at NULL" : ""),
+                     "give fewer, and an address"};
+    }
+    return {};
+}
+
 Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& api) {
     const SluiceSimulation& s = simulation;
     if (api.simulation_bodies != nullptr && api.set_body != nullptr) {

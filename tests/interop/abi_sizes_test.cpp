@@ -75,7 +75,7 @@ TEST(AbiSizes, BelowTheMinimumIsRefusedByName) {
 static_assert(sluice::kAbiMinimum<SluiceFrame> == 380 && sizeof(SluiceFrame) == 392);
 static_assert(sluice::kAbiMinimum<SluiceSimulation> == 112 && sluice::kAbiMinimum<SluiceSimulationStats> == 592);
 static_assert(sluice::kAbiMinimum<SluiceBodies> == 1552 && sluice::kAbiMinimum<SluiceBodyTarget> == 32);
-static_assert(sluice::kAbiMinimum<SluiceFlow> == 1320);
+static_assert(sluice::kAbiMinimum<SluiceFlow> == 1320 && sluice::kAbiMinimum<SluiceStart> == 24);
 static_assert(sluice::kAbiMinimum<SluiceFrameStats> == 2596 && sizeof(SluiceFrameStats) == 2600);
 static_assert(sluice::kAbiMinimum<SluiceError> == 520 && sluice::kAbiMinimum<SluiceTraceEvent> == 64);
 static_assert(sluice::kAbiMinimum<SluiceImageExport> == 40 && sluice::kAbiMinimum<SluiceHostServices> == 56);

@@ -108,6 +108,12 @@ SluiceRendererApi fakeApi() {
         fake.simulated = double{flow->emitters[0].speed};
         return SLUICE_OK;
     };
+    api.reset_simulation = [](SluiceRenderer* /*renderer*/, const SluiceStart* start,
+                              SluiceError* /*error*/) -> SluiceResult {
+        fake.last_velocity = start->velocity != nullptr ? start->velocity[3 * start->particle_count - 1] : -1.0F;
+        fake.simulated = start->position != nullptr ? double{start->position[0]} : 0.0;
+        return SLUICE_OK;
+    };
     api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
                           SluiceError* /*error*/) -> SluiceResult {
         fake.own_value = frame->signal_value;
@@ -243,6 +249,21 @@ TEST_F(IsolateServer, ASimulationCrossesWithItsArraysOrIsRefused) {
     send(flow);
     EXPECT_EQ(returned().result, SLUICE_OK);
     EXPECT_EQ(fake.simulated, 3.5);
+    const std::array<float, 6> others{7, 2, 3, 4, 5, 8};
+    const UniqueFd start = sealedCopy({std::as_bytes(std::span(two)), std::as_bytes(std::span(others))}).value();
+    ResetSimulation reset{{}, 1, sized<SluiceStart>()};
+    reset.start.particle_count = 2;
+    send(reset, {start.get()});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.simulated, 1.0);
+    EXPECT_EQ(fake.last_velocity, 8.0F);
+    reset.start.particle_count = 3;
+    send(reset, {start.get()});
+    EXPECT_EQ(returned().result, SLUICE_ERROR_INVALID_ARGUMENT) << "the memory is shorter than that";
+    reset.start.particle_count = 0;
+    send(reset);
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.simulated, 0.0) << "none, and no address";
     call.simulation.particle_count = 3;
     send(call, {memory.get()});
     EXPECT_EQ(returned().result, SLUICE_ERROR_INVALID_ARGUMENT) << "the memory is shorter than that";
@@ -278,6 +299,9 @@ TEST_F(IsolateServer, EveryArrayOfASimulationComesToItsOwnPlaceAndAnOlderPluginR
     EXPECT_THAT(returned().message, HasSubstr("simulation.emitters"));
     send(SimulationBodies{{}, 1});
     EXPECT_EQ(returned().result, SLUICE_ERROR_UNSUPPORTED);
+    api_.reset_simulation = nullptr;
+    send(ResetSimulation{{}, 0, sized<SluiceStart>()});
+    EXPECT_THAT(returned().message, HasSubstr("does not know reset_simulation"));
 }
 
 TEST_F(IsolateServer, ARefusedImageIsTheRenderersFailure) {

@@ -40,7 +40,7 @@ static_assert(sizeof(SluicePassStats) == 80);
 static_assert(sizeof(SluiceFrameStats) == 2600);
 static_assert(sizeof(SluiceCreateInfo) == 444);
 static_assert(sizeof(SluiceRendererInfo) == 516);
-static_assert(sizeof(SluiceRendererApi) == 200);
+static_assert(sizeof(SluiceRendererApi) == 208);
 static_assert(offsetof(SluiceError, code) == 4);
 static_assert(offsetof(SluiceError, message) == 8);
 static_assert(offsetof(SluiceTraceEvent, kind) == 4);
@@ -163,6 +163,7 @@ static_assert(sizeof(SluiceBody) == 96 && sizeof(SluicePathPoint) == 32 && sizeo
 static_assert(sizeof(SluiceBodyState) == 96 && offsetof(SluiceBodies, bodies) == 16);
 static_assert(sizeof(SluiceBodyTarget) == 32);
 static_assert(offsetof(SluiceFlow, emitters) == 40 && sizeof(SluiceFlow) == 1320);
+static_assert(offsetof(SluiceStart, position) == 8 && sizeof(SluiceStart) == 24);
 static_assert(offsetof(SluiceSimulationStats, busy_ns) == 48 && offsetof(SluiceSimulationStats, message) == 84);
 static_assert(sizeof(SluiceSimulationStats) == 592);
 static_assert(offsetof(SluicePassStats, name) == 0);
@@ -217,7 +218,7 @@ static_assert(offsetof(SluiceRendererApi, simulation_wait) == 160);
 static_assert(offsetof(SluiceRendererApi, simulation_stats) == 168);
 static_assert(offsetof(SluiceRendererApi, simulation_bodies) == 176);
 static_assert(offsetof(SluiceRendererApi, set_body) == 184);
-static_assert(offsetof(SluiceRendererApi, set_flow) == 192);
+static_assert(offsetof(SluiceRendererApi, set_flow) == 192 && offsetof(SluiceRendererApi, reset_simulation) == 200);
 }  // namespace layout
 #endif
 
@@ -232,7 +233,7 @@ static_assert(kSizePrefixed<SluiceEnvironment> && kSizePrefixed<SluiceSceneNeeds
 static_assert(kSizePrefixed<SluiceFrameStats> && kSizePrefixed<SluiceCreateInfo> && kSizePrefixed<SluiceRendererInfo>);
 static_assert(kSizePrefixed<SluiceRendererApi> && kSizePrefixed<SluiceSimulation>);
 static_assert(kSizePrefixed<SluiceSimulationStats> && kSizePrefixed<SluiceBodies>);
-static_assert(kSizePrefixed<SluiceBodyTarget> && kSizePrefixed<SluiceFlow>);
+static_assert(kSizePrefixed<SluiceBodyTarget> && kSizePrefixed<SluiceFlow> && kSizePrefixed<SluiceStart>);
 
 TEST(PluginAbi, EnumerationsKeepTheirValues) {
     EXPECT_EQ(SLUICE_ABI_VERSION, 0x10002U);

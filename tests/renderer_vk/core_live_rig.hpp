@@ -57,6 +57,7 @@ struct Block {
     SimulationSettings settings;
     SluiceSolid solid{};
     std::vector<float> position;
+    std::vector<float> velocity;  ///< of alone(); none: at rest
     SluiceSimulation simulation{};
     std::function<void(Solver&)> seen;  ///< of alone()
 };
@@ -64,14 +65,15 @@ struct Block {
 /// The fluid of `settings` by the solver alone, value by value; `seen` looks at the solver after each.
 inline std::vector<ParticleState> alone(const SimulationSettings& settings, const std::vector<float>& position,
                                         double longest, std::uint64_t values,
-                                        const std::function<void(Solver&)>& seen = {}) {
+                                        const std::function<void(Solver&)>& seen = {},
+                                        const std::vector<float>& velocity = {}) {
     std::vector<ParticleState> states;
     DeviceRequest request;
     request.match_host = false;
     auto device = Device::create(request);
     auto solver = Solver::create(*device.value(), settings);
     EXPECT_TRUE(solver) << solver.error().message();
-    EXPECT_TRUE(solver.value()->setParticles(position, {}));
+    EXPECT_TRUE(solver.value()->setParticles(position, velocity));
     for (std::uint64_t value = 1; value <= values; ++value) {
         if (value > 1) {
             EXPECT_TRUE(solver.value()->advance(kFrame, longest));
@@ -116,7 +118,7 @@ class LiveFluid : public ::testing::Test {
     std::vector<std::vector<std::byte>> uploaded(const Block& block, std::uint64_t values) {
         std::vector<std::vector<std::byte>> pictures;
         for (const ParticleState& state :
-             alone(block.settings, block.position, block.simulation.longest_step, values, block.seen)) {
+             alone(block.settings, block.position, block.simulation.longest_step, values, block.seen, block.velocity)) {
             auto particles = sized<SluiceParticles>();
             particles.count = static_cast<std::uint32_t>(state.position.size() / 3);
             particles.radius = block.simulation.radius;

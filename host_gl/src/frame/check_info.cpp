@@ -90,6 +90,13 @@ Status checkPart(const SluiceSimulation* simulation) {
     return checkArrays(readAbiStruct(*simulation));
 }
 
+Status checkPart(const SluiceStart* start) {
+    if (Status status = checkAbiStruct(start, "start"); !status) {
+        return status;
+    }
+    return checkArrays(readAbiStruct(*start));
+}
+
 Status checkPart(const SluiceEnvironment* environment) {
     if (environment == nullptr) {
         return {};

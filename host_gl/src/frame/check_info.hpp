@@ -17,6 +17,7 @@ namespace sluice::host {
 [[nodiscard]] Status checkPart(const SluiceParticles& particles);
 [[nodiscard]] Status checkPart(const SluiceEnvironment* environment);
 [[nodiscard]] Status checkPart(const SluiceSimulation* simulation);
+[[nodiscard]] Status checkPart(const SluiceStart* start);
 /// The renderer's account must agree with what was asked for and with the images that it shared.
 [[nodiscard]] Status checkInfo(const SluiceRendererInfo& info, const FluidHostConfig& config, const ImageTable& images);
 

@@ -50,7 +50,7 @@ void KeptScene::keep(const SluiceEnvironment* environment) {
 }
 
 void KeptScene::keep(const SluiceSimulation* simulation) {
-    has_simulation_ = false;
+    has_simulation_ = has_start_ = false;
     arrays_.clear();
     if (simulation == nullptr) {
         return;
@@ -78,6 +78,26 @@ std::optional<SluiceSimulation> KeptScene::simulation() const {
                   ++kept;
               });
     return simulation;
+}
+
+void KeptScene::keep(const SluiceStart& start) {
+    const SluiceStart known = readAbiStruct(start);
+    const std::size_t floats = std::size_t{known.particle_count} * 3;
+    has_start_ = false;  // should memory run out half-way
+    copy(start_position_, known.position, floats);
+    copy(start_velocity_, known.velocity, floats);
+    has_start_ = true;
+}
+
+std::optional<SluiceStart> KeptScene::start() const {
+    if (!has_start_) {
+        return std::nullopt;
+    }
+    auto start = sized<SluiceStart>();
+    start.particle_count = static_cast<std::uint32_t>(start_position_.size() / 3);
+    start.position = view(start_position_);
+    start.velocity = view(start_velocity_);
+    return start;
 }
 
 std::optional<SluiceParticles> KeptScene::particles() const {

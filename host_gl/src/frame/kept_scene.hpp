@@ -19,13 +19,16 @@ class KeptScene {
     void keep(const SluiceEnvironment* environment);
     void forgetParticles() { has_particles_ = false; }
     void forgetEnvironment() { pixels_.clear(); }
-    /// nullptr: none.
+    /// nullptr: none. What the one before was reset to goes.
     void keep(const SluiceSimulation* simulation);
+    void keep(const SluiceStart& start);
+    void forgetStart() { has_start_ = false; }
 
     /// Views of the copies, valid until the next keep(); empty when nothing was set.
     [[nodiscard]] std::optional<SluiceParticles> particles() const;
     [[nodiscard]] std::optional<SluiceEnvironment> environment() const;
     [[nodiscard]] std::optional<SluiceSimulation> simulation() const;
+    [[nodiscard]] std::optional<SluiceStart> start() const;
 
   private:
     bool has_particles_ = false;
@@ -36,6 +39,8 @@ class KeptScene {
     SluiceSimulation simulation_facts_{};
     bool has_simulation_ = false, has_velocities_ = false;
     std::vector<std::vector<std::byte>> arrays_;  ///< in the order of eachArray
+    bool has_start_ = false;
+    std::vector<float> start_position_, start_velocity_;
 };
 
 }  // namespace sluice::host

@@ -73,6 +73,7 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Result<SluiceBodies> simulationBodies(std::uint64_t value) override;
     [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget& target) override;
     [[nodiscard]] Status setFlow(const SluiceFlow& flow) override;
+    [[nodiscard]] Status resetSimulation(const SluiceStart& start) override;
     [[nodiscard]] Status submit(const Screen& screen, const FrameInput& asked) override {
         return caught([&]() -> Status {
             ++without_fluid_;
@@ -126,8 +127,11 @@ class RecoveringHost final : public FluidHost {
     [[nodiscard]] Status beginWithScene();
     /// A part of the scene that the new renderer refuses, as every one after it would, goes, and that is said.
     void drop(const char* part, const Error& refusal);
-    /// The simulation once more, from its initial state, which stands for the value asked for last.
+    /// The simulation once more, from its initial state or what it was reset to, which stands for the value asked for
+    /// last.
     [[nodiscard]] Status simulateAgain(const SluiceSimulation& simulation);
+    /// What was changed since set_simulation. A part that is refused goes.
+    [[nodiscard]] Status changeAgain();
     /// What the present renderer calls `value`; of what went with an earlier one, its initial state; 0 of one that it
     /// has refused.
     [[nodiscard]] std::uint64_t simulatedHere(std::uint64_t value) const;
@@ -160,6 +164,7 @@ class RecoveringHost final : public FluidHost {
     std::unique_ptr<RendererLife> life_;
     std::uint64_t base_ = 0;             ///< numbers that earlier renderers have spent
     std::uint64_t asked_ = 0;            ///< last value of simulate
+    std::uint64_t reset_for_ = 0;        ///< value that the last resetSimulation was for
     std::uint64_t simulation_base_ = 0;  ///< values that went with earlier renderers
     bool simulation_dropped_ = false;    ///< a new renderer has refused it: frames are drawn without
     std::uint64_t submitted_ = 0;

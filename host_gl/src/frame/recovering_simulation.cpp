@@ -112,22 +112,62 @@ Status RecoveringHost::setFlow(const SluiceFlow& flow) {
     });
 }
 
+Status RecoveringHost::resetSimulation(const SluiceStart& start) {
+    return caught([&]() -> Status {
+        if (Status status = checkPart(&start); !status) {
+            return status;
+        }
+        if (simulation_dropped_) {
+            return {};  // nothing flows in a renderer that has refused it
+        }
+        if (recovery_.down() && !scene_.simulation()) {
+            return Error{SLUICE_ERROR_INVALID_ARGUMENT, "reset_simulation", "there is no simulation",
+                         "call setSimulation first"};
+        }
+        Status status = recovery_.down() ? Status{} : judged(life_->resetSimulation(start));
+        if (recovers() && !refused(status)) {
+            scene_.keep(start);
+            reset_for_ = asked_ + 1;
+        }
+        return status;
+    });
+}
+
+// What is refused here was given while there was no renderer to look at it.
+Status RecoveringHost::changeAgain() {
+    if (flow_) {
+        const Status status = life_->setFlow(*flow_);
+        if (refused(status)) {
+            drop("flow", status.error());
+            flow_.reset();
+        } else if (!status) {
+            return status;
+        }
+    }
+    if (const auto start = scene_.start()) {
+        const Status status = life_->resetSimulation(*start);
+        if (refused(status)) {
+            drop("start", status.error());
+            scene_.forgetStart();
+        } else if (!status) {
+            return status;
+        }
+    }
+    return {};
+}
+
 Status RecoveringHost::simulateAgain(const SluiceSimulation& simulation) {
     Status status = life_->setSimulation(&simulation);
-    if (status && flow_) {
-        status = life_->setFlow(*flow_);
-        if (refused(status)) {
-            drop("flow", status.error());  // given while there was no renderer to look at it
-            flow_.reset();
-            status = {};
-        }
+    if (status) {
+        status = changeAgain();
     }
     if (!status || asked_ == 0) {
         return status;
     }
     simulation_base_ = asked_ - 1;
     log(SLUICE_LOG_WARNING,
-        fmt::format("simulation: what had flowed went with the renderer; from value {} on it begins again", asked_));
+        fmt::format("simulation: what had flowed went with the renderer; from value {} on it begins again{}", asked_,
+                    scene_.start() ? fmt::format(", with what it was reset to for value {}", reset_for_) : ""));
     return life_->simulate(1, 0.0);
 }
 

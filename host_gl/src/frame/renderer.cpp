@@ -230,6 +230,16 @@ Status Renderer::setFlow(const SluiceFlow& flow) const {
     return statusOf("set_flow", result, said);
 }
 
+Status Renderer::resetSimulation(const SluiceStart& start) const {
+    if (api_->reset_simulation == nullptr) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("renderer {}", api_->name), "does not know reset_simulation",
+                     "use a newer plugin, or set_simulation"};
+    }
+    auto said = sized<SluiceError>();
+    const SluiceResult result = api_->reset_simulation(handle_, &start, &said);
+    return statusOf("reset_simulation", result, said);
+}
+
 Status Renderer::submit(const SluiceFrame& frame) const {
     auto said = sized<SluiceError>();
     const SluiceResult result = api_->submit_frame(handle_, &frame, &said);

@@ -42,6 +42,7 @@ class Renderer {
     [[nodiscard]] Result<SluiceBodies> simulationBodies(std::uint64_t value) const;
     [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget& target) const;
     [[nodiscard]] Status setFlow(const SluiceFlow& flow) const;
+    [[nodiscard]] Status resetSimulation(const SluiceStart& start) const;
     [[nodiscard]] Status submit(const SluiceFrame& frame) const;
     /// Polls until the frame has finished, for `timeout_ns` at most.
     [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame, std::uint64_t timeout_ns) const;

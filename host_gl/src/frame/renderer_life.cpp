@@ -133,6 +133,11 @@ Status RendererLife::setFlow(const SluiceFlow& flow) {
     return given(link_.renderer.setFlow(flow));
 }
 
+Status RendererLife::resetSimulation(const SluiceStart& start) {
+    const auto scope = watch_.during("reset_simulation", 0);
+    return given(link_.renderer.resetSimulation(start));
+}
+
 Result<SluiceFrameStats> RendererLife::stats(std::uint64_t frame) {
     const auto scope = watch_.during("poll", frame, link_.config.wait_timeout_ns);
     Result<SluiceFrameStats> stats = link_.renderer.stats(frame, link_.config.wait_timeout_ns);

@@ -36,6 +36,7 @@ class RendererLife {
     [[nodiscard]] Result<SluiceBodies> simulationBodies(std::uint64_t value);
     [[nodiscard]] Status setBody(std::uint32_t body, const SluiceBodyTarget& target);
     [[nodiscard]] Status setFlow(const SluiceFlow& flow);
+    [[nodiscard]] Status resetSimulation(const SluiceStart& start);
     [[nodiscard]] Status submit(const Screen& screen, const FrameInput& input);
     [[nodiscard]] Status composite(const Screen& screen);
     [[nodiscard]] Result<SluiceFrameStats> stats(std::uint64_t frame);

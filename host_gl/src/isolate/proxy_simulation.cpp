@@ -145,6 +145,35 @@ SluiceResult setFlow(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceErr
     });
 }
 
+SluiceResult resetSimulation(SluiceRenderer* renderer, const SluiceStart* start, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        if (Status status = checkPart(start); !status) {
+            return status;
+        }
+        const SluiceStart given = readAbiStruct(*start);
+        isolate::ResetSimulation call{{}, given.velocity != nullptr ? 1U : 0U, given};
+        call.start.position = call.start.velocity = nullptr;
+        const std::string doing = fmt::format("reset_simulation to {} particles", given.particle_count);
+        if (given.particle_count == 0) {
+            return simply(*of(renderer)->process, call, doing, {});
+        }
+        const std::size_t floats = std::size_t{3} * given.particle_count;
+        std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(given.position, floats))};
+        if (given.velocity != nullptr) {
+            parts.push_back(std::as_bytes(std::span(given.velocity, floats)));
+        }
+        const Result<UniqueFd> copy = isolate::sealedCopy(parts);
+        if (!copy) {
+            return copy.error();
+        }
+        const int fd = copy.value().get();
+        return simply(*of(renderer)->process, call, doing, {}, std::span(&fd, 1));
+    });
+}
+
 }  // namespace
 
 void addSimulation(SluiceRendererApi& table) {
@@ -155,6 +184,7 @@ void addSimulation(SluiceRendererApi& table) {
     table.simulation_bodies = simulationBodies;
     table.set_body = setBody;
     table.set_flow = setFlow;
+    table.reset_simulation = resetSimulation;
 }
 
 }  // namespace sluice::host::proxy

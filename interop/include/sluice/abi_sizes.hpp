@@ -75,6 +75,8 @@ inline constexpr std::size_t kAbiMinimum<SluiceBodyTarget> = offsetof(SluiceBody
                                                              sizeof(SluiceBodyTarget::turn);
 template <>
 inline constexpr std::size_t kAbiMinimum<SluiceFlow> = offsetof(SluiceFlow, emitters) + sizeof(SluiceFlow::emitters);
+template <>
+inline constexpr std::size_t kAbiMinimum<SluiceStart> = offsetof(SluiceStart, velocity) + sizeof(SluiceStart::velocity);
 
 /// An empty T that says its size.
 template <typename T>

@@ -498,7 +498,7 @@ typedef struct SluiceSimulation {
     /* ABI 1.1 ends here. */
     float tension, adhesion; /* m/s^2: gamma and beta of Akinci et al. 2013; 0: none */
     float overshoot;         /* longest step for a depth; 0: the default of 0.17; below 0: steps are not held to it */
-    uint32_t max_particles;  /* at which emitters stop, and room of the output slots; 0 without emitters: as given */
+    uint32_t max_particles;  /* at which emitters stop, and room for reset_simulation; 0 without emitters: as given */
     uint32_t emitter_count, drain_count, field_count, body_count;
     const SluiceEmitter* emitters; /* with one, particle_count may be 0 */
     const SluiceDrain* drains;
@@ -528,7 +528,8 @@ typedef struct SluiceSimulationStats {
     uint32_t particle_count;
     uint64_t asked;   /* last value that simulate was called with */
     uint64_t reached; /* of the timeline */
-    uint64_t failed;  /* first value that could not be simulated, 0: none; from it on all are the last good state */
+    uint64_t failed;  /* first value that could not be simulated, 0: none since the last reset_simulation; from it on
+                         all are the last good state */
     uint64_t steps, steps_taken_again;
     uint64_t busy_ns;              /* spent on values, waiting for the queue included, since set_simulation */
     uint64_t last_busy_ns;         /* of that, on the value that was reached last */
@@ -559,6 +560,14 @@ typedef struct SluiceBodyTarget {
     float centre[3];
     float turn[4]; /* quaternion x, y, z, w of any length but 0 */
 } SluiceBodyTarget;
+
+/* Since ABI 1.2. A fluid as it is to begin anew; arrays as in SluiceSimulation. */
+typedef struct SluiceStart {
+    uint32_t struct_size;
+    uint32_t particle_count; /* at most what set_simulation made room for (max_particles); 0 only with emitters */
+    const float* position;
+    const float* velocity; /* may be NULL: at rest */
+} SluiceStart;
 
 /* Since ABI 1.2. What may change while a fluid flows; all of it as in SluiceSimulation. */
 typedef struct SluiceFlow {
@@ -711,6 +720,12 @@ typedef struct SluiceRendererApi {
     /* How the fluid flows from the value on that simulate is called with next. What is wrong is refused, and all stays
      * as it was. A first tension or vorticity, and another axis of gravity, take the time of compiling passes. */
     SluiceResult (*set_flow)(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceError* error);
+
+    /* The value that simulate is called with next begins with these particles in place of those that flow: at time 0,
+     * with bodies as they were given and with set_flow as it is; `seconds` of 0 shows them as they are. What was asked
+     * for before comes first, and a simulation that has failed flows again. Returns at once; what is wrong is refused
+     * by name, and all stays as it was. */
+    SluiceResult (*reset_simulation)(SluiceRenderer* renderer, const SluiceStart* start, SluiceError* error);
 } SluiceRendererApi;
 
 /* The one exported symbol. Returns NULL when abi_version's major is not served. */

@@ -33,6 +33,9 @@ void eachArray(Simulation& s, bool velocities, const Each& each) {
 /// them. `simulation` has passed readAbiStruct.
 [[nodiscard]] Status checkArrays(const SluiceSimulation& simulation);
 
+/// The same of what a simulation is reset to, but for whether there may be none. It has passed readAbiStruct.
+[[nodiscard]] Status checkArrays(const SluiceStart& start);
+
 /// UNSUPPORTED, with what it lacks named, if the simulation asks for more than a renderer of this table knows.
 [[nodiscard]] Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& api);
 

@@ -150,6 +150,7 @@ class Server {
         }
         return said(result, error);
     }
+    Message handle(const ResetSimulation& call, UniqueFd& /*with*/);
     Message handle(const SubmitFrame& call, UniqueFd& /*with*/) {
         auto error = sized<SluiceError>();
         if (carriers_) {
@@ -321,6 +322,31 @@ Message Server::handle(const SetSimulation& call, UniqueFd& /*with*/) {
         return refuse(mapped.error());
     }
     const SluiceResult result = api_.set_simulation(renderer_, &simulation, &error);
+    return said(result, error);
+}
+
+Message Server::handle(const ResetSimulation& call, UniqueFd& /*with*/) {
+    auto error = sized<SluiceError>();
+    if (api_.reset_simulation == nullptr) {
+        writeAbiError(&error,
+                      {SLUICE_ERROR_UNSUPPORTED, "the plugin", "does not know reset_simulation", "use a newer one"});
+        return said(SLUICE_ERROR_UNSUPPORTED, error);
+    }
+    SluiceStart start = call.start;
+    start.position = start.velocity = nullptr;
+    const std::size_t floats = std::size_t{3} * start.particle_count;
+    Mapping memory;
+    if (!fds_.empty()) {
+        Result<Mapping> mapped = mapSealed(fds_.front(), (call.has_velocity != 0 ? 2U : 1U) * floats * sizeof(float));
+        if (!mapped) {
+            writeAbiError(&error, mapped.error());
+            return said(mapped.error().code, error);
+        }
+        memory = std::move(mapped).value();
+        start.position = static_cast<const float*>(memory.at());
+        start.velocity = call.has_velocity != 0 ? start.position + floats : nullptr;
+    }
+    const SluiceResult result = api_.reset_simulation(renderer_, &start, &error);
     return said(result, error);
 }
 

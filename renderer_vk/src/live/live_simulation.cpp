@@ -150,7 +150,7 @@ Status LiveSimulation::simulate(std::uint64_t value, double seconds) {
         return Error{SLUICE_ERROR_INTERNAL, "simulate", "the simulation's thread has ended",
                      "call set_simulation again"};
     }
-    requests_.push_back({value, seconds, std::exchange(asked_, {}), std::move(flow_)});
+    requests_.push_back({value, seconds, std::exchange(asked_, {}), std::move(flow_), std::move(start_)});
     stats_.asked = value;
     if (value > slots_->count()) {
         seen_.passed(value - slots_->count());  // fluid() refuses it from now on
@@ -333,13 +333,18 @@ Status LiveSimulation::advance(const Request& request) {
     {
         const std::lock_guard lock(mutex_);
         seen_.forget(seen_.sourceOf(request.value));  // here, since a value without a step does not look
+    }
+    // Also of one that has failed: it may flow again.
+    if (Status status = request.flow ? solver_->setFlow(*request.flow) : Status{}; !status) {
+        return status;
+    }
+    if (Status status = request.start ? beginAnew(*request.start) : Status{}; !status) {
+        return status;
+    }
+    {
+        const std::lock_guard lock(mutex_);
         if (stats_.failed != 0) {
             return {};  // the last good state it is, from now on
-        }
-    }
-    if (request.flow) {
-        if (Status status = solver_->setFlow(*request.flow); !status) {
-            return status;
         }
     }
     targets_.insert(targets_.end(), request.targets.begin(), request.targets.end());

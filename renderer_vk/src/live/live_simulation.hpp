@@ -44,6 +44,11 @@ struct LiveSetup {
     float depth_thickness = 0.0F;  ///< m
 };
 
+/// What it begins with anew.
+struct LiveStart {
+    std::vector<float> position, velocity;  ///< as LiveSetup has them
+};
+
 /// Where a driven body is to be.
 struct BodyTarget {
     std::uint32_t body = 0;
@@ -63,8 +68,8 @@ struct SimulatedFluid {
 
 /// The solver looks at every step's outcome before the next one, so it needs a thread; that thread is the only one that
 /// uses the solver. Value v waits for the frames that drew value v - slots, which nobody may draw any more once v has
-/// been asked for. Pinned; device and timeline must outlive it. simulate(), setBody(), setFlow(), fluid() and drawn()
-/// on the renderer's thread.
+/// been asked for. Pinned; device and timeline must outlive it. simulate(), setBody(), setFlow(), reset(), fluid() and
+/// drawn() on the renderer's thread.
 class LiveSimulation {
   public:
     static Result<std::unique_ptr<LiveSimulation>> create(const Device& device, const RendererTimeline& timeline,
@@ -81,6 +86,8 @@ class LiveSimulation {
     [[nodiscard]] Status setBody(const BodyTarget& target);
     /// From that value on.
     [[nodiscard]] Status setFlow(const FlowSettings& flow);
+    /// What that value begins with. live_reset.cpp has it.
+    [[nodiscard]] Status reset(LiveStart start);
     /// Refused if `value` was not asked for or its slot may be overwritten. Where the device has one queue this waits
     /// until the last work of `value` has been submitted: behind a frame that waits for it, it would never run. Fails
     /// after FrameRing::kPatienceNs.
@@ -116,6 +123,7 @@ class LiveSimulation {
         double seconds;
         std::vector<BodyTarget> targets;
         std::unique_ptr<FlowSettings> flow;  ///< may be none
+        std::unique_ptr<LiveStart> start;    ///< likewise
     };
 
     [[nodiscard]] Status start(const LiveSetup& setup);
@@ -125,6 +133,7 @@ class LiveSimulation {
     void run();
     void reach(const Request& request);
     [[nodiscard]] Status advance(const Request& request);
+    [[nodiscard]] Status beginAnew(const LiveStart& start);
     [[nodiscard]] Status waitForFrames(std::uint64_t value);
     [[nodiscard]] Status waitForFrame(std::uint64_t signal, std::uint64_t value, const char* why);
     [[nodiscard]] Status look(std::uint64_t value);
@@ -154,6 +163,7 @@ class LiveSimulation {
     std::vector<BodyTarget> targets_;     ///< likewise of values without a step
     std::vector<BodyTarget> asked_;       ///< by setBody() since the last simulate(); the renderer's thread's
     std::unique_ptr<FlowSettings> flow_;  ///< by setFlow(), likewise
+    std::unique_ptr<LiveStart> start_;    ///< by reset(), likewise
 
     mutable std::mutex mutex_;  ///< guards all below
     mutable std::condition_variable changed_;

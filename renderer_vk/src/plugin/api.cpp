@@ -283,7 +283,8 @@ constexpr SluiceRendererApi kApi = {sizeof(SluiceRendererApi),
                                     simulationStats,
                                     simulationBodies,
                                     setBody,
-                                    setFlow};
+                                    setFlow,
+                                    resetSimulation};
 
 }  // namespace
 

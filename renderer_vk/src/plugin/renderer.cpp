@@ -191,6 +191,10 @@ Status SluiceRenderer::setFlow(const FlowSettings& flow) {
     return simulation_ ? simulation_->setFlow(flow) : Status{noSimulation("set_flow")};
 }
 
+Status SluiceRenderer::resetSimulation(LiveStart start) {
+    return simulation_ ? simulation_->reset(std::move(start)) : Status{noSimulation("reset_simulation")};
+}
+
 Result<FrameFluid> SluiceRenderer::fluidOf(const SluiceFrame& frame) {
     if (frame.simulation == 0) {
         return FrameFluid{particles_, {}};

@@ -37,6 +37,7 @@ struct SluiceRenderer {
     [[nodiscard]] sluice::Status simulate(std::uint64_t value, double seconds);
     [[nodiscard]] sluice::Status setBody(const sluice::vk::BodyTarget& target);
     [[nodiscard]] sluice::Status setFlow(const sluice::vk::FlowSettings& flow);
+    [[nodiscard]] sluice::Status resetSimulation(sluice::vk::LiveStart start);
     /// Null without one.
     [[nodiscard]] const sluice::vk::LiveSimulation* simulation() const { return simulation_.get(); }
     /// Everything about the frame is checked here.

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "plugin/renderer.hpp"
 #include "plugin/simulation_arguments.hpp"
 #include "sluice/abi_boundary.hpp"
@@ -104,6 +106,16 @@ SluiceResult setFlow(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceErr
         }
         const Result<FlowSettings> to = readFlow(flow);
         return to ? renderer->setFlow(to.value()) : Status{to.error()};
+    });
+}
+
+SluiceResult resetSimulation(SluiceRenderer* renderer, const SluiceStart* start, SluiceError* error) {
+    return guarded(error, [&]() -> Status {
+        if (renderer == nullptr) {
+            return isNull("renderer");
+        }
+        Result<LiveStart> to = readStart(start);
+        return to ? renderer->resetSimulation(std::move(to).value()) : Status{to.error()};
     });
 }
 

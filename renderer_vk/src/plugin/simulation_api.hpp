@@ -17,5 +17,6 @@ namespace sluice::vk {
 [[nodiscard]] SluiceResult setBody(SluiceRenderer* renderer, std::uint32_t body, const SluiceBodyTarget* target,
                                    SluiceError* error);
 [[nodiscard]] SluiceResult setFlow(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceError* error);
+[[nodiscard]] SluiceResult resetSimulation(SluiceRenderer* renderer, const SluiceStart* start, SluiceError* error);
 
 }  // namespace sluice::vk

@@ -143,7 +143,7 @@ Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
     if (Status status = readDepth(s, setup); !status) {
         return status.error();
     }
-    setup.most_particles = s.emitter_count > 0 ? s.max_particles : s.particle_count;
+    setup.most_particles = s.emitter_count > 0 ? s.max_particles : std::max(s.max_particles, s.particle_count);
     const std::size_t floats = std::size_t{3} * s.particle_count;
     setup.position.assign(s.position, s.position + floats);
     if (s.velocity != nullptr) {
@@ -190,6 +190,23 @@ Result<FlowSettings> readFlow(const SluiceFlow* flow) {
     }
     return FlowSettings{given.iterations, triple(given.gravity),      given.viscosity, given.vorticity, given.tension,
                         given.adhesion,   std::move(sources.emitters)};
+}
+
+Result<LiveStart> readStart(const SluiceStart* start) {
+    if (Status status = checkAbiStruct(start, "start"); !status) {
+        return status.error();
+    }
+    const SluiceStart given = readAbiStruct(*start);
+    if (Status status = checkArrays(given); !status) {
+        return status.error();
+    }
+    const std::size_t floats = std::size_t{3} * given.particle_count;
+    LiveStart to;
+    to.position.assign(given.position, given.position + floats);
+    if (given.velocity != nullptr) {
+        to.velocity.assign(given.velocity, given.velocity + floats);
+    }
+    return to;
 }
 
 }  // namespace sluice::vk

@@ -13,5 +13,6 @@ namespace sluice::vk {
 [[nodiscard]] Result<LiveSetup> readSimulation(const SluiceSimulation* simulation);
 [[nodiscard]] Result<BodyTarget> readTarget(std::uint32_t body, const SluiceBodyTarget* target);
 [[nodiscard]] Result<FlowSettings> readFlow(const SluiceFlow* flow);
+[[nodiscard]] Result<LiveStart> readStart(const SluiceStart* start);
 
 }  // namespace sluice::vk

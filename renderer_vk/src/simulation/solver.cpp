@@ -118,7 +118,9 @@ void Solver::useDepthField(VkBuffer field) {
 Status Solver::setParticles(std::span<const float> positions, std::span<const float> velocities,
                             std::span<const std::uint32_t> fluids) {
     State& s = *state_;
-    if (Status status = checkParticles(s.settings, positions, velocities, fluids); !status) {
+    // Emitters may be shut now: none is enough where somebody may come.
+    const bool none = positions.empty() && velocities.empty() && fluids.empty() && s.opened;
+    if (Status status = none ? Status{} : checkParticles(s.settings, positions, velocities, fluids); !status) {
         return status;
     }
     const auto count = static_cast<std::uint32_t>(positions.size() / 3);

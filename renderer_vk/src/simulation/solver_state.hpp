@@ -68,7 +68,8 @@ struct Solver::State {
     [[nodiscard]] bool changing() const { return opened || !settings.sources.drains.empty(); }
     void restartBodies() {
         bodies.clear();
-        for (const Body& body : settings.bodies) {
+        for (Body& body : settings.bodies) {
+            body.drive = {};  // where it was sent, and when, is of another time
             bodies.push_back(startOf(body));
         }
     }

@@ -67,8 +67,8 @@ struct FrameInput {
 /// destroyed and created again by submit(), as FluidHostConfig::recovery says; that submit() takes as long as create()
 /// does. Until then submit() fails, at once, and the frames are the host's alone. The new renderer gets the particles,
 /// the environment and the simulation that were set last, of which the FluidHost keeps a copy; what it refuses of them
-/// is dropped. What had flowed is lost with the renderer: the simulation begins again from its initial state. What
-/// happens is logged, a line each.
+/// is dropped. What had flowed is lost with the renderer: the simulation begins again from its initial state, or from
+/// what it was last reset to. What happens is logged, a line each.
 ///
 /// A GL context that is lost (contextLoss()) ends the FluidHost: every call says so, and nothing more is asked of GL
 /// but to free its objects. Make a context, and a FluidHost in it.
@@ -100,6 +100,8 @@ class FluidHost {
     [[nodiscard]] virtual Status setBody(std::uint32_t body, const SluiceBodyTarget& target) = 0;
     /// How the fluid flows from the value on that is asked for next.
     [[nodiscard]] virtual Status setFlow(const SluiceFlow& flow) = 0;
+    /// What the value that is asked for next begins with, at time 0. A new renderer begins with it, too.
+    [[nodiscard]] virtual Status resetSimulation(const SluiceStart& start) = 0;
 
     /// Copies colour and depth of the screen into the next image set on the GPU, signals, and submits frame k.
     /// On failure the host's frame is untouched and the next call starts a new frame.

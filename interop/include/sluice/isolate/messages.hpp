@@ -222,6 +222,18 @@ struct SetFlow : Carries<0, 0> {
     }
 };
 
+/// Positions, then velocities, in the memory that comes with it; none without particles.
+struct ResetSimulation : Carries<0, 1> {
+    static constexpr std::string_view kName = "reset_simulation";
+    std::uint32_t has_velocity = 0;
+    SluiceStart start{};  ///< its pointers say nothing here
+    template <typename Io, typename Self>
+    static void fields(Io& io, Self& m) {
+        io.number(m.has_velocity);
+        io.abi(m.start);
+    }
+};
+
 // ---- renderer to host.
 
 /// The answer to Hello: what the plugin is.
@@ -342,7 +354,7 @@ struct Answer : Carries<0, 0> {
 using Message = std::variant<Hello, Describe, Explain, Create, Info, Resize, SetParticles, SetEnvironment, SubmitFrame,
                              Poll, TimelineValue, TimelineExport, ProbeFormat, Destroy, Welcome, Returned, Log,
                              TraceEvents, Line, ShareImage, RetireImage, Canary, Answer, SetSimulation, Simulate,
-                             SimulationStats, SimulationBodies, SetBody, SetFlow>;
+                             SimulationStats, SimulationBodies, SetBody, SetFlow, ResetSimulation>;
 
 [[nodiscard]] std::string_view nameOf(const Message& message);
 
