@@ -157,6 +157,7 @@ EXPORT const SluiceRendererApi* sluice_renderer_entry(uint32_t abi_version) {
                                      NULL,
                                      NULL,
                                      NULL,
+                                     NULL,
                                      NULL};
     api = table;
 #ifdef SLUICE_BREAK_ABI_MAJOR
