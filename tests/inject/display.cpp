@@ -24,9 +24,13 @@ std::string slurp(const std::string& path) {
 
 }  // namespace
 
-void InjectTest::SetUp() {
+void InjectTest::makeFolder() {
     folder_ = (std::filesystem::temp_directory_path() / "sluice-inject-test-XXXXXX").string();
     ASSERT_NE(::mkdtemp(folder_.data()), nullptr);
+}
+
+void InjectTest::SetUp() {
+    ASSERT_NO_FATAL_FAILURE(makeFolder());
     std::array<int, 2> ready{};
     ASSERT_EQ(::pipe(ready.data()), 0);
     server_ = ::fork();

@@ -25,6 +25,8 @@ class InjectTest : public ::testing::Test {
     Outcome injected(const std::string& options, const std::string& words) const {
         return run("'" SLUICE_PROGRAM "' inject " + options + " -- '" SLUICE_GL_TARGET "' " + words);
     }
+    /// A folder, and no server yet.
+    void makeFolder();
     void write(const std::string& name, const std::string& text) const;
 
   private:

@@ -271,6 +271,87 @@ TEST(FrameTracker, WhatADisplayListRecordsDoesNotHappen) {
     EXPECT_EQ(tracker.lastFrame().flat_draws, 0U);
 }
 
+TEST(FrameTracker, OpenGlsOwnDepthOfTheStackIsBelieved) {
+    const Matrix view = product(turn(20), translation(0, -1, -9));
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    for (int i = 0; i < 3; ++i) {  // pushes whose pops nobody saw
+        fixed.model(translation(static_cast<float>(i), 7, 7));
+        fixed.push();
+    }
+    EXPECT_EQ(tracker.stackDepth(), 3U);
+    tracker.stackIs(1);
+    fixed.project(kLens);
+    fixed.model(view);
+    fixed.push();
+    (void)fixed.draw(100);
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_EQ(tracker.camera()->view_source, "lowest model-view matrix on the stack");
+    EXPECT_NEAR(tracker.camera()->view[14], view[14], 1e-4F);
+    fixed.pop();
+    fixed.pop();
+    fixed.pop();  // an error, which OpenGL takes no harm from
+    EXPECT_EQ(tracker.stackDepth(), 0U);
+    for (int i = 0; i < 200; ++i) {
+        fixed.push();
+    }
+    EXPECT_EQ(tracker.stackDepth(), 200U);
+}
+
+TEST(FrameTracker, AProgramThatIsLinkedAnewOrDeletedHasNoCamera) {
+    FrameTracker tracker;
+    const auto frame = [&](std::uint32_t program) {
+        tracker.useProgram(program);
+        (void)tracker.draw(10);
+        tracker.endFrame();
+        return !tracker.lastFrame().lenses.empty();
+    };
+    tracker.uniform(3, kLens, UniformName::Unknown);
+    EXPECT_TRUE(frame(3));
+    tracker.programLinked(3);
+    EXPECT_FALSE(frame(3)) << "its uniforms are zero";
+    tracker.uniform(3, kLens, UniformName::Unknown);
+    EXPECT_TRUE(frame(3));
+    tracker.programDeleted(3);
+    EXPECT_TRUE(frame(3)) << "in use, it lives on";
+    EXPECT_FALSE(frame(0));
+    EXPECT_FALSE(frame(3)) << "another one of that name";
+    tracker.uniform(4, kLens, UniformName::Unknown);
+    tracker.programDeleted(4);
+    EXPECT_FALSE(frame(4));
+}
+
+TEST(FrameTracker, AFramebufferThatIsDeletedIsBoundNoMore) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    fixed.project(kLens);
+    for (int frame = 0; frame < 2; ++frame) {
+        (void)tracker.bindFramebuffer(4);
+        (void)fixed.draw(100);
+        tracker.endFrame();
+    }
+    EXPECT_EQ(tracker.target(), 4U);
+    tracker.framebufferDeleted(4);
+    EXPECT_EQ(tracker.framebuffer(), 0U);
+    EXPECT_EQ(tracker.target(), 0U);
+    (void)fixed.draw(100);
+    tracker.endFrame();
+    EXPECT_FALSE(tracker.lastFrame().lenses.empty());
+    (void)tracker.bindFramebuffer(5);
+    tracker.framebufferDeleted(6);
+    EXPECT_EQ(tracker.framebuffer(), 5U);
+}
+
+TEST(FrameTracker, AListThatChangesTheMatrixModeIsKnown) {
+    FrameTracker tracker;
+    tracker.matrixMode(true, false);
+    EXPECT_FALSE(tracker.listsChangeMode());
+    tracker.compileList(true);
+    tracker.matrixMode(false, true);
+    tracker.compileList(false);
+    EXPECT_TRUE(tracker.listsChangeMode());
+}
+
 TEST(FrameTracker, TheProfileHasTheLastWord) {
     FrameTracker tracker({.route = CameraRoute::FixedFunction,
                           .overlay = OverlaySwitch::First,

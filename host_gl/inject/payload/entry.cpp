@@ -4,20 +4,23 @@
 #include <dlfcn.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "payload/report.hpp"
 #include "payload/session.hpp"
+#include "payload/sessions.hpp"
 
 namespace sluice::inject {
 
@@ -26,33 +29,53 @@ namespace {
 /// All of this process. Never destroyed: threads of the program may draw until the very end.
 struct Process {
     Payload payload;
-    std::mutex mutex;
-    std::vector<std::unique_ptr<Session>> sessions;
+    Sessions sessions;
+    std::mutex mutex;                             ///< of what follows
     std::map<const Session*, std::string> texts;  ///< of the report; each written by its session's thread
-    std::uint64_t other_drawables = 0;
     std::chrono::steady_clock::time_point reported{};
+    std::atomic<std::uint64_t> other_drawables{0};
 };
 Process* process = nullptr;
 
+void report(Session* session, bool always);
+
+/// It is this thread's for good.
+void end(Session& session) noexcept {
+    try {
+        session.end();
+        report(&session, true);
+    } catch (const std::exception& fault) {
+        (void)std::fprintf(stderr, "sluice inject: at the end of a context: %s\n", fault.what());
+    }
+}
+
 /// The session of this thread's context, looked up again after every change of context.
 struct Here {
+    Here() = default;
+    Here(const Here&) = delete;
+    Here& operator=(const Here&) = delete;
+    ~Here() { forget(); }
+    void forget() {
+        known = false;
+        Session* const was = std::exchange(session, nullptr);
+        if (was != nullptr && process->sessions.release(*was)) {
+            end(*was);
+        }
+    }
     bool known = false;
     Session* session = nullptr;
 };
 thread_local Here here;
 
-Session* sessionOf(std::uint32_t api, const void* context) {
-    const std::lock_guard lock(process->mutex);
-    const auto found = std::find_if(process->sessions.begin(), process->sessions.end(), [&](const auto& session) {
-        return session->identity().api == api && session->identity().context == context && !session->ended();
-    });
-    return found == process->sessions.end() ? nullptr : found->get();
-}
-
 Session* session() {
+    if (here.session != nullptr && here.session->owner() != std::this_thread::get_id()) {
+        here.known = false;  // taken over by another thread: the context is current there
+    }
     if (!here.known) {
+        here.forget();
         const CurrentContext current = currentContext(process->payload.gl);
-        here = {true, current.context == nullptr ? nullptr : sessionOf(current.api, current.context)};
+        here.session = current.context == nullptr ? nullptr : process->sessions.claim(current);
+        here.known = true;
     }
     return here.session;
 }
@@ -72,10 +95,10 @@ void withSession(What what) noexcept {
                 at->giveUp(fault.what());
             }
         } catch (...) {
-            here = {true, nullptr};
+            here.session = nullptr;
         }
     } catch (...) {
-        here = {true, nullptr};
+        here.session = nullptr;
     }
 }
 
@@ -92,15 +115,15 @@ void report(Session* session, bool always) {
     }
     process->reported = now;
     std::vector<std::string> contexts;
-    for (const std::unique_ptr<Session>& each : process->sessions) {
-        std::string& text = process->texts[each.get()];
-        if (each.get() == session || (session == nullptr && each->thread() == std::this_thread::get_id())) {
-            text = contextText(*each);
+    process->sessions.visit([&](Session& each, bool free) {
+        std::string& text = process->texts[&each];
+        if (free && (&each == session || (session == nullptr && each.thread() == std::this_thread::get_id()))) {
+            text = contextText(each);
         }
         if (!text.empty()) {
             contexts.push_back(text);
         }
-    }
+    });
     writeReport(folder, reportText(process->payload, contexts, process->other_drawables));
 }
 
@@ -114,11 +137,8 @@ void swap(std::uint32_t /*api*/, void* /*display*/, std::uintptr_t drawable, con
         return;
     }
     try {
-        if (sessionOf(current.api, current.context) == nullptr) {
-            auto made = std::make_unique<Session>(process->payload, current);
-            const std::lock_guard lock(process->mutex);
-            process->sessions.push_back(std::move(made));
-            here.known = false;
+        if (session() == nullptr) {
+            here.session = &process->sessions.add(std::make_unique<Session>(process->payload, current));
         }
     } catch (const std::exception& fault) {
         (void)std::fprintf(stderr, "sluice inject: no fluid in this context: %s\n", fault.what());
@@ -131,19 +151,32 @@ void swap(std::uint32_t /*api*/, void* /*display*/, std::uintptr_t drawable, con
 }
 
 void madeCurrent() {
-    here.known = false;
+    here.forget();
 }
 
-void destroyContext(std::uint32_t api, void* /*display*/, void* context) {
+/// What of it nobody else uses ends here and now, with or without its context.
+void retire(const std::function<bool(const CurrentContext&)>& destroyed) noexcept {
     try {
-        if (Session* at = sessionOf(api, context); at != nullptr) {
-            at->end();
-            report(at, true);
+        for (Session* each : process->sessions.retire(destroyed)) {
+            end(*each);
         }
     } catch (const std::exception& fault) {
         (void)std::fprintf(stderr, "sluice inject: at the end of a context: %s\n", fault.what());
     }
-    here.known = false;
+    here.forget();
+}
+
+void destroyContext(std::uint32_t api, void* /*display*/, void* context) {
+    retire([&](const CurrentContext& of) { return of.api == api && of.context == context; });
+}
+
+/// Whoever had this address has gone by a way that nobody saw, with its display or its thread.
+void contextCreated(std::uint32_t api, void* context) {
+    retire([&](const CurrentContext& of) { return of.api == api && of.context == context; });
+}
+
+void displayEnded(void* display) {
+    retire([&](const CurrentContext& of) { return of.api == SLUICE_INJECT_EGL && of.display == display; });
 }
 
 void matrixMode(std::uint32_t mode) {
@@ -164,8 +197,27 @@ void matrixPopped() {
     withSession([](Session& at) { at.tracker().popped(); });
 }
 
+void attributesPopped() {
+    withSession([](Session& at) { at.matrixModeUnknown(); });
+}
+
+void listCalled() {
+    withSession([](Session& at) { at.listCalled(); });
+}
+
 void useProgram(std::uint32_t program) {
     withSession([&](Session& at) { at.tracker().useProgram(program); });
+}
+
+// Programs are common to contexts, and one that links them may never draw.
+void programLinked(std::uint32_t program) {
+    process->payload.programs_changed.fetch_add(1, std::memory_order_relaxed);
+    withSession([&](Session& at) { at.tracker().programLinked(program); });
+}
+
+void programDeleted(std::uint32_t program) {
+    process->payload.programs_changed.fetch_add(1, std::memory_order_relaxed);
+    withSession([&](Session& at) { at.tracker().programDeleted(program); });
 }
 
 void uniformMatrix(std::uint32_t program, std::int32_t location, std::int32_t count, std::uint32_t transpose,
@@ -187,8 +239,21 @@ void bindFramebuffer(std::uint32_t target, std::uint32_t framebuffer) {
     }
 }
 
+void framebuffersDeleted(std::int32_t count, const std::uint32_t* names) {
+    withSession([&](Session& at) {
+        for (std::int32_t i = 0; names != nullptr && i < count; ++i) {
+            at.tracker().framebufferDeleted(names[i]);
+        }
+    });
+}
+
 void listMode(std::uint32_t mode) {
-    withSession([&](Session& at) { at.tracker().compileList(mode != 0); });
+    withSession([&](Session& at) {
+        at.tracker().compileList(mode != 0);
+        if (mode == 0) {
+            at.matrixModeUnknown();  // what was compiled only did not happen
+        }
+    });
 }
 
 void draw(std::uint32_t vertices) {
@@ -217,7 +282,14 @@ const SluiceInjectPayload kTable{sizeof(SluiceInjectPayload),
                                  listMode,
                                  draw,
                                  clear,
-                                 takeError};
+                                 takeError,
+                                 attributesPopped,
+                                 listCalled,
+                                 programLinked,
+                                 programDeleted,
+                                 framebuffersDeleted,
+                                 contextCreated,
+                                 displayEnded};
 
 std::string ownFolder() {
     Dl_info info{};

@@ -149,6 +149,10 @@ UniformName Session::nameOf(std::uint32_t program, std::int32_t location) {
 
 void Session::uniform(std::uint32_t program, std::int32_t location, const Matrix& matrix) {
     const std::uint32_t of = program != 0 ? program : tracker_.program();
+    const std::uint64_t changes = payload_.programs_changed.load(std::memory_order_relaxed);
+    if (std::exchange(programs_seen_, changes) != changes) {
+        names_.clear();
+    }
     if (of != 0 && location >= 0) {
         tracker_.uniform(of, matrix, nameOf(of, location));
     }
@@ -160,6 +164,20 @@ void Session::matrixPushed() {
         payload_.gl.getFloatv(GL_MODELVIEW_MATRIX, model_view.data());
     }
     tracker_.pushedView(model_view);
+}
+
+void Session::matrixModeUnknown() {
+    if (facts_.compatibility && !tracker_.compiling()) {
+        GLint mode = GL_MODELVIEW;
+        payload_.gl.getIntegerv(GL_MATRIX_MODE, &mode);
+        tracker_.matrixMode(mode == GL_PROJECTION, mode == GL_MODELVIEW);
+    }
+}
+
+void Session::listCalled() {
+    if (tracker_.listsChangeMode()) {
+        matrixModeUnknown();
+    }
 }
 
 void Session::beforeDraw(std::uint32_t vertices) {
@@ -232,6 +250,12 @@ void Session::swap(const CurrentContext& current, const char* route) {
         composeAtSwap();
     }
     tracker_.endFrame();
+    if (facts_.compatibility && tracker_.stackDepth() != 0) {
+        // What pushes and pops nobody saw, or that failed, would add up.
+        GLint depth = 1;
+        payload_.gl.getIntegerv(GL_MODELVIEW_STACK_DEPTH, &depth);
+        tracker_.stackIs(static_cast<std::size_t>(std::max(depth, 1) - 1));
+    }
     composed_ = false;
     if (water_ != nullptr) {
         const Timed timed(in_frame_);
@@ -364,7 +388,6 @@ void Session::giveUp(const std::string& why) {
 }
 
 void Session::end() {
-    ended_ = true;
     if (water_ != nullptr) {
         last_water_ = water_->report();
         water_.reset();

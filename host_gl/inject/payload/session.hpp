@@ -2,6 +2,7 @@
 // One GL context of the program: its tracker, its fluid, and what the report says of it.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -22,7 +23,8 @@ struct Payload {
     const SluiceInjectShim* shim = nullptr;
     Settings settings;
     GlCalls gl;
-    std::string folder;  ///< of the payload, where libsluice.so lies too
+    std::string folder;                              ///< of the payload, where libsluice.so lies too
+    std::atomic<std::uint64_t> programs_changed{0};  ///< linked or deleted, in whichever context
 };
 
 /// Time of the program's thread, in all frames.
@@ -47,7 +49,12 @@ class Session {
     void beforeBind(std::uint32_t framebuffer);
     void uniform(std::uint32_t program, std::int32_t location, const Matrix& matrix);
     void matrixPushed();
-    /// The context is about to be destroyed.
+    /// Asks which matrix it is that the next calls change.
+    void matrixModeUnknown();
+    void listCalled();
+    /// The context has been, or is about to be, destroyed: no frame comes any more.
+    void retire() { ended_ = true; }
+    /// Lets go of the fluid. retire() comes before it.
     void end();
     /// Never again in this context: what went wrong goes to stderr once.
     void giveUp(const std::string& why);
@@ -70,6 +77,9 @@ class Session {
     [[nodiscard]] WaterReport water();
     /// Of the last swap.
     [[nodiscard]] std::thread::id thread() const { return thread_; }
+    /// Whose it is (sessions.hpp); none: nobody's.
+    [[nodiscard]] std::thread::id owner() const { return owner_.load(std::memory_order_relaxed); }
+    void own(std::thread::id thread) { owner_.store(thread, std::memory_order_relaxed); }
 
   private:
     [[nodiscard]] bool passive() const;  ///< no fluid will come: nothing of GL's is touched
@@ -100,7 +110,9 @@ class Session {
     std::uint32_t resizes_ = 0;
     bool composed_ = false, ended_ = false;
     std::thread::id thread_ = std::this_thread::get_id();
-    double in_frame_ = 0;  ///< seconds of ours in this frame
+    std::atomic<std::thread::id> owner_{};
+    std::uint64_t programs_seen_ = 0;  ///< of Payload::programs_changed, in names_
+    double in_frame_ = 0;              ///< seconds of ours in this frame
 };
 
 /// Errors of the program's own that keepErrors() took from the driver, of this thread; 0 when there is none left.

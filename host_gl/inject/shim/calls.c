@@ -36,6 +36,18 @@
         TELL(what);                              \
     }
 
+/* Both, for what changes under way. */
+#define AROUND(name, parameters, arguments, before, after) \
+    void name parameters {                                 \
+        typedef void(*Real) parameters;                    \
+        const Real real = SHIM_REAL(name, Real);           \
+        TELL(before);                                      \
+        if (real != NULL) {                                \
+            real arguments;                                \
+        }                                                  \
+        TELL(after);                                       \
+    }
+
 AFTER(glMatrixMode, (uint32_t mode), (mode), matrix_mode(mode))
 
 #define MATRIX(name, parameters, arguments) AFTER(name, parameters, arguments, matrix_changed())
@@ -64,6 +76,7 @@ MATRIX(glTranslated, (double x, double y, double z), (x, y, z))
 MATRIX(glScaled, (double x, double y, double z), (x, y, z))
 AFTER(glPopMatrix, (void), (), matrix_popped())
 BEFORE(glPushMatrix, (void), (), matrix_pushed())
+AFTER(glPopAttrib, (void), (), attributes_popped())
 
 AFTER(glUseProgram, (uint32_t program), (program), use_program(program))
 AFTER(glUseProgramObjectARB, (uint32_t program), (program), use_program(program))
@@ -77,6 +90,16 @@ AFTER(glProgramUniformMatrix4fv,
       (uint32_t program, int32_t location, int32_t count, uint8_t transpose, const float* value),
       (program, location, count, transpose, value), uniform_matrix(program, location, count, transpose, value))
 
+AFTER(glLinkProgram, (uint32_t program), (program), program_linked(program))
+AFTER(glLinkProgramARB, (uint32_t program), (program), program_linked(program))
+AFTER(glProgramBinary, (uint32_t program, uint32_t format, const void* binary, int32_t length),
+      (program, format, binary, length), program_linked(program))
+AFTER(glDeleteProgram, (uint32_t program), (program), program_deleted(program))
+AFTER(glDeleteObjectARB, (uint32_t object), (object), program_deleted(object))
+
+AFTER(glDeleteFramebuffers, (int32_t count, const uint32_t* names), (count, names), framebuffers_deleted(count, names))
+AFTER(glDeleteFramebuffersEXT, (int32_t count, const uint32_t* names), (count, names),
+      framebuffers_deleted(count, names))
 BEFORE(glBindFramebuffer, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
        bind_framebuffer(target, framebuffer))
 BEFORE(glBindFramebufferEXT, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
@@ -84,8 +107,8 @@ BEFORE(glBindFramebufferEXT, (uint32_t target, uint32_t framebuffer), (target, f
 
 AFTER(glNewList, (uint32_t list, uint32_t mode), (list, mode), list_mode(mode))
 AFTER(glEndList, (void), (), list_mode(0))
-BEFORE(glCallList, (uint32_t list), (list), draw(0))
-BEFORE(glCallLists, (int32_t count, uint32_t type, const void* lists), (count, type, lists), draw(0))
+AROUND(glCallList, (uint32_t list), (list), draw(0), list_called())
+AROUND(glCallLists, (int32_t count, uint32_t type, const void* lists), (count, type, lists), draw(0), list_called())
 BEFORE(glClear, (uint32_t mask), (mask), clear(mask))
 
 void glBegin(uint32_t mode) {

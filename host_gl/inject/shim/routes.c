@@ -126,6 +126,47 @@ unsigned eglMakeCurrent(void* display, void* draw, void* read, void* context) {
     return answer;
 }
 
+unsigned eglReleaseThread(void) {
+    typedef unsigned (*Real)(void);
+    const Real real = SHIM_REAL(eglReleaseThread, Real);
+    const unsigned answer = real == NULL ? 0 : real();
+    made_current();
+    return answer;
+}
+
+static void* created(uint32_t api, void* context) {
+    const SluiceInjectPayload* to = context == NULL ? NULL : shim_enter();
+    if (to != NULL) {
+        to->context_created(api, context);
+        shim_leave();
+    }
+    return context;
+}
+
+void* glXCreateContext(void* display, void* visual, void* share, int direct) {
+    typedef void* (*Real)(void*, void*, void*, int);
+    const Real real = SHIM_REAL(glXCreateContext, Real);
+    return real == NULL ? NULL : created(SLUICE_INJECT_GLX, real(display, visual, share, direct));
+}
+
+void* glXCreateNewContext(void* display, void* config, int type, void* share, int direct) {
+    typedef void* (*Real)(void*, void*, int, void*, int);
+    const Real real = SHIM_REAL(glXCreateNewContext, Real);
+    return real == NULL ? NULL : created(SLUICE_INJECT_GLX, real(display, config, type, share, direct));
+}
+
+void* glXCreateContextAttribsARB(void* display, void* config, void* share, int direct, const int* attributes) {
+    typedef void* (*Real)(void*, void*, void*, int, const int*);
+    const Real real = SHIM_REAL(glXCreateContextAttribsARB, Real);
+    return real == NULL ? NULL : created(SLUICE_INJECT_GLX, real(display, config, share, direct, attributes));
+}
+
+void* eglCreateContext(void* display, void* config, void* share, const int32_t* attributes) {
+    typedef void* (*Real)(void*, void*, void*, const int32_t*);
+    const Real real = SHIM_REAL(eglCreateContext, Real);
+    return real == NULL ? NULL : created(SLUICE_INJECT_EGL, real(display, config, share, attributes));
+}
+
 static void destroys(uint32_t api, void* display, void* context) {
     const SluiceInjectPayload* to = shim_enter();
     if (to != NULL) {
@@ -148,4 +189,15 @@ unsigned eglDestroyContext(void* display, void* context) {
     const Real real = SHIM_REAL(eglDestroyContext, Real);
     destroys(SLUICE_INJECT_EGL, display, context);
     return real == NULL ? 0 : real(display, context);
+}
+
+unsigned eglTerminate(void* display) {
+    typedef unsigned (*Real)(void*);
+    const Real real = SHIM_REAL(eglTerminate, Real);
+    const SluiceInjectPayload* to = shim_enter();
+    if (to != NULL) {
+        to->display_ended(display);
+        shim_leave();
+    }
+    return real == NULL ? 0 : real(display);
 }

@@ -23,7 +23,10 @@
     X(glDrawElementsBaseVertex) X(glDrawRangeElementsBaseVertex) X(glDrawArraysInstanced) \
     X(glDrawElementsInstanced) X(glDrawElementsInstancedBaseVertex) X(glMultiDrawArrays) \
     X(glMultiDrawElements) X(glDrawArraysIndirect) X(glDrawElementsIndirect) X(glMultiDrawArraysIndirect) \
-    X(glMultiDrawElementsIndirect)
+    X(glMultiDrawElementsIndirect) X(glPopAttrib) X(glLinkProgram) X(glLinkProgramARB) X(glProgramBinary) \
+    X(glDeleteProgram) X(glDeleteObjectARB) X(glDeleteFramebuffers) X(glDeleteFramebuffersEXT) \
+    X(glXCreateContext) X(glXCreateNewContext) X(glXCreateContextAttribsARB) X(eglCreateContext) \
+    X(eglTerminate) X(eglReleaseThread)
 /* clang-format on */
 
 #define SHIM_ENUMERATE(name) HOOK_##name,

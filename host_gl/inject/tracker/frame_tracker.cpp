@@ -20,6 +20,7 @@ constexpr std::size_t kMostReasons = 16;
 void FrameTracker::matrixMode(bool projection, bool model_view) {
     mode_projection_ = projection;
     mode_model_view_ = model_view;
+    lists_change_mode_ = lists_change_mode_ || compiling_;
 }
 
 void FrameTracker::matrixChanged() {
@@ -52,12 +53,25 @@ void FrameTracker::pushedView(const Matrix& model_view) {
     }
     if (stack_.size() < kMostLevels) {
         stack_.push_back(model_view);
+    } else {
+        stackIs(stackDepth() + 1);
+    }
+}
+
+void FrameTracker::stackIs(std::size_t depth) {
+    if (depth != stackDepth()) {
+        stack_.clear();
+        below_ = depth;
     }
 }
 
 void FrameTracker::popped() {
-    if (mode_model_view_ && !compiling_ && !stack_.empty()) {
-        stack_.pop_back();
+    if (mode_model_view_ && !compiling_) {
+        if (!stack_.empty()) {
+            stack_.pop_back();
+        } else if (below_ > 0) {
+            --below_;
+        }
     }
     matrixChanged();
 }
@@ -97,6 +111,22 @@ void FrameTracker::fixedMatrices(const Matrix& projection, const Matrix& model_v
     fixed_ = readMatrix(projection);
     ++fixed_version_;
     reject(*fixed_);
+}
+
+void FrameTracker::useProgram(std::uint32_t program) {
+    if (program_deleted_ && program != program_) {
+        programs_.erase(program_);
+        program_deleted_ = false;
+    }
+    program_ = program;
+}
+
+void FrameTracker::programDeleted(std::uint32_t program) {
+    if (program == program_) {
+        program_deleted_ = program != 0;
+    } else {
+        programs_.erase(program);
+    }
 }
 
 void FrameTracker::uniform(std::uint32_t program, const Matrix& matrix, UniformName name) {
@@ -240,6 +270,19 @@ bool FrameTracker::bindFramebuffer(std::uint32_t framebuffer) {
     const bool now = leaves && boundary();
     framebuffer_ = framebuffer;
     return now;
+}
+
+void FrameTracker::framebufferDeleted(std::uint32_t framebuffer) {
+    if (framebuffer == 0) {
+        return;
+    }
+    framebuffer_ = framebuffer_ == framebuffer ? 0 : framebuffer_;
+    elsewhere_.erase(framebuffer);
+    refused_.erase(framebuffer);
+    if (target_ == framebuffer) {
+        target_ = 0;
+        learned_.reset();
+    }
 }
 
 void FrameTracker::refuse(std::uint32_t framebuffer) {

@@ -3,6 +3,7 @@
 // no OpenGL; whoever feeds it asks OpenGL for matrices when the tracker wants them.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -71,12 +72,20 @@ class FrameTracker {
     [[nodiscard]] bool wantsPushedView() const;
     void pushedView(const Matrix& model_view);
     void popped();
+    /// Levels of the model-view stack above the lowest.
+    [[nodiscard]] std::size_t stackDepth() const { return below_ + stack_.size(); }
+    /// OpenGL's own word for it. What lies there is not known if it is another depth.
+    void stackIs(std::size_t depth);
     /// Before a draw: if true, give both matrices of the fixed function to fixedMatrices() first.
     [[nodiscard]] bool wantsMatrices() const;
     void fixedMatrices(const Matrix& projection, const Matrix& model_view);
 
-    void useProgram(std::uint32_t program) { program_ = program; }
+    void useProgram(std::uint32_t program);
     void uniform(std::uint32_t program, const Matrix& matrix, UniformName name);
+    /// All its uniforms are zero.
+    void programLinked(std::uint32_t program) { programs_.erase(program); }
+    /// Its name may be another's; it lives on as long as it is in use.
+    void programDeleted(std::uint32_t program);
     [[nodiscard]] std::uint32_t program() const { return program_; }
 
     /// Before the binding changes. True: the framebuffer that is bound now holds the complete scene, and the fluid
@@ -87,7 +96,11 @@ class FrameTracker {
     [[nodiscard]] std::uint32_t target() const { return target_; }
     /// The fluid cannot be drawn into that one: a shadow map, or a format that nobody knows.
     void refuse(std::uint32_t framebuffer);
+    /// After it: one that was bound is not any more.
+    void framebufferDeleted(std::uint32_t framebuffer);
     void compileList(bool compiling);
+    [[nodiscard]] bool compiling() const { return compiling_; }
+    [[nodiscard]] bool listsChangeMode() const { return lists_change_mode_; }
 
     /// True: the scene is complete, so that the fluid belongs before this draw.
     [[nodiscard]] bool draw(std::uint32_t vertices);
@@ -137,13 +150,16 @@ class FrameTracker {
     TrackerRules rules_;
     bool mode_projection_ = false, mode_model_view_ = true;
     bool fixed_dirty_ = true, compiling_ = false, lists_change_projection_ = false;
+    bool lists_change_mode_ = false;
     std::optional<Reading> fixed_;
     Matrix model_view_ = kIdentity;
     std::optional<Matrix> pushed_;
+    std::size_t below_ = 0;  ///< levels of which nothing is known
     std::vector<Matrix> stack_;
     std::uint32_t pushes_ = 0;
     std::uint64_t fixed_version_ = 0;
     std::uint32_t program_ = 0, framebuffer_ = 0, target_ = 0;
+    bool program_deleted_ = false;  ///< program_, which is in use still
     std::map<std::uint32_t, std::uint64_t>
         elsewhere_;  ///< vertices in perspective, by framebuffer other than the target
     std::set<std::uint32_t> refused_;
