@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The dam break of Martin & Moyce 1952 (n^2 = 2), as curves: front and height at the wall over dimensionless time, as
 // CSV. scripts/plot-simulation draws them against what others measured and computed (bench/data/dam_break.csv).
-//   dam_break [ACROSS...]    particles across the column, 20 unless told
+//   dam_break [ACROSS...] [poly6|spline|wendland]    particles across the column, 20 unless told
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -10,6 +10,7 @@
 
 int main(int argc, char** argv) {
     using namespace sluice::bench;
+    const auto kernel = takeKernel(argc, argv);
     std::vector<long> resolutions;
     for (int i = 1; i < argc; ++i) {
         resolutions.push_back(std::clamp(std::strtol(argv[i], nullptr, 10), 4L, 200L));
@@ -21,7 +22,8 @@ int main(int argc, char** argv) {
     fmt::print("across,particles,time,front,height\n");
     for (const long across : resolutions) {
         // 6 deep at 20, as in the test that holds it to a bound.
-        const Scene scene = waterInTrough(across, across * 3 / 10, 6.0);
+        Scene scene = waterInTrough(across, across * 3 / 10, 6.0);
+        scene.settings.kernel = kernel;
         const auto solver = makeSolver(*device, scene);
         const double unit = std::sqrt(scene.base / (2.0 * 9.81));  // seconds
         const auto radius = double{scene.settings.radius};

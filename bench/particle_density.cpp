@@ -4,8 +4,9 @@
 //   particle_density KERNEL VOLUME X Y Z FILE.pos...
 // KERNEL: cubic (spline, Monaghan 1992) or poly6 (Mueller et al. 2003), supports of four radii, or wendland (C2), of
 // six. VOLUME: of a particle at rest as its solver defines it, in (2 radii)^3; a cubic lattice of such has density 1.
-// X, Y, Z: the walls are at 0 and there, metres. Printed: mean and greatest of max(density - 1, 0), over all files, and
-// the standard deviation of the density, which depends on no definition of rest.
+// X, Y, Z: the walls are at 0 and there, metres. Printed: mean and greatest of max(density - 1, 0), over all files; the
+// standard deviation of the density, which depends on no definition of rest; and its median, which tells a fluid that
+// keeps its density from one that has no excess because it has swollen.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -138,6 +139,7 @@ int main(int argc, char** argv) {
     double greatest = 0.0;
     double inside = 0.0;
     double spread = 0.0;
+    double median = 0.0;
     const int files = argc - 6;
     for (int i = 6; i < argc; ++i) {
         const Set set = readPos(argv[i]);
@@ -149,6 +151,7 @@ int main(int argc, char** argv) {
         double sum = 0.0;
         double squares = 0.0;
         double counted = 1e-9;
+        std::vector<double> densities;
         for (const Point& x : set.points) {
             bool away = true;
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -158,18 +161,24 @@ int main(int argc, char** argv) {
                 const double density = volume * cells.sumAt(x, kernel);
                 over += std::max(0.0, density - 1.0);
                 greatest = std::max(greatest, density - 1.0);
+                densities.push_back(density);
                 sum += density;
                 squares += density * density;
                 counted += 1.0;
             }
+        }
+        if (!densities.empty()) {
+            const auto middle = densities.begin() + static_cast<std::ptrdiff_t>(densities.size() / 2);
+            std::nth_element(densities.begin(), middle, densities.end());
+            median += *middle / files;
         }
         mean += over / counted / files;
         inside += counted / files;
         spread += std::sqrt(std::max(0.0, squares / counted - sum * sum / counted / counted)) / files;
     }
     fmt::print(
-        "{} files, {:.0f} particles away from walls in the mean: mean {:.3f} %, greatest {:.1f} %, deviation {:.2f} "
-        "%\n",
-        files, inside, 100.0 * mean, 100.0 * greatest, 100.0 * spread);
+        "{} files, {:.0f} particles away from walls in the mean: mean {:.3f} %, greatest {:.1f} %, deviation {:.2f} %, "
+        "median {:.4f}\n",
+        files, inside, 100.0 * mean, 100.0 * greatest, 100.0 * spread, median);
     return 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The dam break in which other solvers are compared with this one: 21 x 42 x 21 particles of 0.05 m in a trough four
 // times as long, as .pos files every 0.05 s for particle_density, and what they cost.
-//   peer_dam ITERATIONS LONGEST SECONDS [FOLDER]       LONGEST in s, 0.005 for example
+//   peer_dam ITERATIONS LONGEST SECONDS [FOLDER] [poly6|spline|wendland]       LONGEST in s, 0.005 for example
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -29,8 +29,9 @@ void writePos(const std::string& name, float radius, const std::vector<float>& p
 
 int main(int argc, char** argv) {
     using namespace sluice::bench;
+    const auto kernel = takeKernel(argc, argv);
     if (argc < 4) {
-        fmt::print(stderr, "peer_dam ITERATIONS LONGEST SECONDS [FOLDER]\n");
+        fmt::print(stderr, "peer_dam ITERATIONS LONGEST SECONDS [FOLDER] [poly6|spline|wendland]\n");
         return 2;
     }
     constexpr int kWide = 21;
@@ -41,6 +42,7 @@ int main(int argc, char** argv) {
     scene.base = kWide * kSpacing;
     scene.settings.radius = static_cast<float>(kSpacing / 2.0);
     scene.settings.iterations = static_cast<std::uint32_t>(std::strtoul(argv[1], nullptr, 10));
+    scene.settings.kernel = kernel;
     scene.settings.low = {0, 0, 0};
     scene.settings.high = {static_cast<float>(4.0 * scene.base), static_cast<float>(3.0 * scene.base),
                            static_cast<float>(scene.base)};

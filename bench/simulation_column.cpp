@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A column of water at rest, 8 x 20 x 8 particles of 0.04 m, two seconds: how far its weight compresses it, over
 // iterations and longest step, and its density with height at the solver's defaults.
-//   simulation_column [TENSILE]      the artificial pressure, that of the defaults unless told
+//   simulation_column [TENSILE] [poly6|spline|wendland]      the artificial pressure, that of the defaults unless told
 #include <algorithm>
 #include <cmath>
 
@@ -57,6 +57,7 @@ void printProfile(const std::vector<float>& position, const std::vector<float>& 
 }  // namespace
 
 int main(int argc, char** argv) {
+    const auto kernel = takeKernel(argc, argv);
     const float tensile = argc > 1 ? std::strtof(argv[1], nullptr) : sluice::vk::SimulationSettings().tensile;
     const auto device = makeDevice();
     fmt::print(
@@ -68,6 +69,7 @@ int main(int argc, char** argv) {
         for (const int hertz : {60, 120, 250, 500}) {
             Scene scene = column(iterations);
             scene.settings.tensile = tensile;
+            scene.settings.kernel = kernel;
             const auto solver = makeSolver(*device, scene);
             const auto middle = [](const sluice::vk::ParticleState& state) {
                 double sum = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Speed against error: what it costs to simulate a second of a dam break and of a standing column, and how far each is
 // compressed, over iterations and longest step; as CSV for scripts/plot-simulation.
-//   simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS] [dam|column]
+//   simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS] [dam|column] [poly6|spline|wendland]
 // Error: max(density - 1, 0); its mean over particles and over samples every 0.05 s, and the greatest of all samples.
 // Cost: least of the repeats of each 0.05 s, which are the same work bit for bit, summed; densities are read untimed.
 // A run for which the solver found no stable step has no figures.
@@ -76,8 +76,11 @@ std::vector<std::uint32_t> listOf(const char* text) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    const auto kernel = takeKernel(argc, argv);
     if (argc < 2 || std::strtol(argv[1], nullptr, 10) < 1) {
-        fmt::print(stderr, "simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS] [dam|column]\n");
+        fmt::print(
+            stderr,
+            "simulation_error PARTICLES [ITERATIONS,...] [HERTZ,...] [REPEATS] [dam|column] [poly6|spline|wendland]\n");
         return 2;
     }
     const long particles = std::strtol(argv[1], nullptr, 10);
@@ -97,6 +100,7 @@ int main(int argc, char** argv) {
             for (const std::uint32_t rate : hertz) {
                 Scene scene = falling ? damBreak(particles) : standingColumn(particles);
                 scene.settings.iterations = count;
+                scene.settings.kernel = kernel;
                 const Outcome found = measure(*device, scene, falling ? 12 : 10, 1.0 / rate, repeats);
                 if (found.unstable) {
                     fmt::print("{},{},{},{},,,,,,\n", falling ? "dam" : "column", found.particles, count, rate);

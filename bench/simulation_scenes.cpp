@@ -4,12 +4,14 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <ctime>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 
 namespace sluice::bench {
 namespace {
@@ -112,6 +114,22 @@ long residentBytes() {
 long openFiles() {
     const auto entries = std::filesystem::directory_iterator("/proc/self/fd");
     return static_cast<long>(std::distance(begin(entries), end(entries)));
+}
+
+vk::DensityKernel takeKernel(int& argc, char** argv) {
+    constexpr std::array<std::pair<std::string_view, vk::DensityKernel>, 3> kNames{
+        {{"poly6", vk::DensityKernel::Poly6},
+         {"spline", vk::DensityKernel::Spline},
+         {"wendland", vk::DensityKernel::Wendland}}};
+    vk::DensityKernel kernel = vk::SimulationSettings().kernel;
+    char** const end = std::remove_if(argv + 1, argv + argc, [&](const char* argument) {
+        const auto* const named =
+            std::find_if(kNames.begin(), kNames.end(), [&](const auto& name) { return name.first == argument; });
+        kernel = named != kNames.end() ? named->second : kernel;
+        return named != kNames.end();
+    });
+    argc = static_cast<int>(end - argv);
+    return kernel;
 }
 
 std::unique_ptr<vk::Device> makeDevice() {

@@ -65,6 +65,8 @@ inline void check(const Status& status) {
     }
 }
 
+/// Takes the name of a kernel, poly6, spline or wendland, out of the arguments; without one it is the default.
+[[nodiscard]] vk::DensityKernel takeKernel(int& argc, char** argv);
 [[nodiscard]] std::unique_ptr<vk::Device> makeDevice();
 [[nodiscard]] std::unique_ptr<vk::Solver> makeSolver(const vk::Device& device, const Scene& scene);
 

@@ -23,6 +23,7 @@ void main() {
     }
     const vec4 self = texelFetch(pushed, int(i));
     const float h = p.high.w;
+    const float per_h = 1.0 / h;
     const uint number = list_count[i];
     vec3 delta = vec3(0);
     uint at = i;
@@ -32,10 +33,16 @@ void main() {
         const vec4 d = between(self.xyz, other.xyz, i, j);
         const float near = max(h - d.w, 0.0);
         const float bracket = max(h * h - d.w * d.w, 0.0);
-        float tensile = bracket * bracket * bracket * p.fluid.z;
+        const float q = d.w * per_h;
+        float tensile = (KERNEL == POLY6 ? bracket * bracket * bracket : densityShape(q)) * p.fluid.z;
         tensile *= tensile;
         tensile *= tensile * p.kernel.w;
-        delta += d.xyz * ((self.w + other.w - tensile) * p.kernel.y * near * near / d.w);
+        const float push = self.w + other.w - tensile;
+        if (KERNEL == POLY6) {
+            delta += d.xyz * (push * p.kernel.y * near * near / d.w);
+        } else {
+            delta += d.xyz * (push * p.constraint.y * densityPull(q));
+        }
     }
     const vec4 walls = walls_of[i];
     delta += self.w * walls.xyz;

@@ -126,7 +126,7 @@ void main() {
             const float q = max(distanceTo(k, x).w, 0.0) / h;
             if (q < 1.0) {
                 const uint body = k - p.change.w;
-                const vec3 drag = (bodyVelocity(body, x) - v) * (rub * p.search.y * halfSpace(q));
+                const vec3 drag = (bodyVelocity(body, x) - v) * (rub * wallShare(q));
                 addPush(body, x, drag * p.gravity.w);
                 result += drag;
             }

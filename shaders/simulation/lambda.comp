@@ -25,7 +25,8 @@ void main() {
     const vec3 x = self.xyz;
     const float h = p.high.w;
     const uint number = list_count[i];
-    float sum = h * h * h * h * h * h;
+    const float per_h = 1.0 / h;
+    float sum = KERNEL == POLY6 ? h * h * h * h * h * h : 1.0;
     float squares = 0.0;
     vec3 gradient = vec3(0);
     uint at = i;
@@ -33,20 +34,30 @@ void main() {
         const uint j = texelFetch(list, int(at)).x;
         const vec4 other = texelFetch(sorted, int(j));
         const vec4 d = between(x, other.xyz, i, j);
-        const float bracket = max(h * h - d.w * d.w, 0.0);
-        sum += bracket * bracket * bracket;
-        const float near = max(h - d.w, 0.0);
-        const float slope = p.kernel.y * near * near;
+        float slope;
+        float along;
+        if (KERNEL == POLY6) {
+            const float bracket = max(h * h - d.w * d.w, 0.0);
+            sum += bracket * bracket * bracket;
+            const float near = max(h - d.w, 0.0);
+            slope = p.kernel.y * near * near;
+            along = slope / d.w;
+        } else {
+            const float q = d.w * per_h;
+            sum += densityShape(q);
+            along = p.constraint.y * densityPull(q);
+            slope = along * d.w;
+        }
         if (FLUIDS == 1u) {
             squares += other.w * slope * slope;
         } else {
             squares += slope * slope;
         }
-        gradient += d.xyz * (slope / d.w);
+        gradient += d.xyz * along;
     }
     const vec4 walls = wallsAt(x);
     gradient += walls.xyz;
-    const float density = p.kernel.x * sum + walls.w;
+    const float density = (KERNEL == POLY6 ? p.kernel.x : p.constraint.x) * sum + walls.w;
     if (MEASURE == 1u) {
         pushed[i] = vec4(x, density);
         return;

@@ -25,8 +25,9 @@ layout(std140, set = 0, binding = 0) uniform Parameters {
     vec4 low;        // low corner of the domain, w = particle radius
     vec4 high;       // high corner, w = support h of the kernels
     vec4 kernel;     // x = poly6 factor, y = factor of spiky's gradient (negative), z = relaxation 1/m^2, w = tensile m^2
-    vec4 fluid;      // x = XSPH, y = vorticity confinement, z = 1 / poly6's bracket at the tensile distance, w = 1/dt
+    vec4 fluid;      // x = XSPH, y = vorticity confinement, z = 1 / the kernel (poly6: its bracket) at the tensile distance, w = 1/dt
     vec4 search;     // x = 1 / side of a cell, which is a little wider than the support; y = factor of a wall's density
+    vec4 constraint;  // kernels but poly6: x = V W(0), y = -x / h^2, z, w = factors of a wall's density and of its slope, w in 1/m
     uvec4 count;     // x = particles of the step, y = distance between two rows of the lists, z = most neighbours, w = solids
                      // and bodies
     uvec4 grid;      // x = cells along x, y and z = masks along y and z, w = cells

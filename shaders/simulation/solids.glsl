@@ -3,7 +3,7 @@
 // distances, for passes that have defined MESH_BINDING; what a camera sees, for those with SEEN_BINDING.
 #ifndef SLUICE_SOLIDS_GLSL
 #define SLUICE_SOLIDS_GLSL
-#include "simulation.glsl"
+#include "density.glsl"
 #ifdef BODIES_BINDING
 #include "bodies.glsl"
 #endif
@@ -102,23 +102,11 @@ vec3 collided(vec3 x, vec3 start) {
     return clamp(x, p.low.xyz + p.low.w, p.high.xyz - p.low.w);
 }
 
-// What a wall adds to the density if fluid at rest filled it: poly6 integrated over a half-space whose plane is `q`
-// supports away, 0 <= q <= 1.
-float halfSpace(float q) {
-    const float s = q * q;
-    return 0.5 - (315.0 / 256.0) * q * (1.0 + s * (-4.0 / 3.0 + s * (6.0 / 5.0 + s * (-4.0 / 7.0 + s / 9.0))));
-}
-// Minus its derivative along the normal, of the spiky kernel, 1/m.
-float halfSpaceSlope(float q) {
-    const float a = 1.0 - q;
-    const float s = a * a;
-    return 30.0 / p.high.w * s * s * (0.25 - 0.2 * a);
-}
 // Adds the wall at distance `d` with unit normal `n` to the walls so far: xyz gradient, w density. Where two walls
 // overlap they are counted once, as if each took its share of what the other left (exact in a right-angled edge at d = 0).
 vec4 withWall(vec4 walls, vec3 n, float d) {
     const float q = clamp(d / p.high.w, 0.0, 1.0);
-    const float share = p.search.y * halfSpace(q);
+    const float share = wallShare(q);
     return vec4(walls.xyz * (1.0 - share) - n * (halfSpaceSlope(q) * (1.0 - walls.w)),
                 walls.w + share * (1.0 - walls.w));
 }
@@ -158,7 +146,7 @@ void addPressure(vec3 x, float density, float factor) {
         const vec4 d = distanceTo(k, x);
         if (d.w < p.high.w) {
             const float q = clamp(d.w / p.high.w, 0.0, 1.0);
-            const float left = (1.0 - density) / (1.0 - p.search.y * halfSpace(q));
+            const float left = (1.0 - density) / (1.0 - wallShare(q));
             addPush(k - p.change.w, x, d.xyz * (-halfSpaceSlope(q) * left * factor));
         }
     }

@@ -33,6 +33,21 @@ TEST_F(SimulationDepth, AColumnTooDeepForTheStepBoilsUnlessItsStepsAreHeldToItsD
         << "nothing to hold a step to: this test shows nothing";
 }
 
+class SimulationDepthOf : public SimulationTest, public ::testing::WithParamInterface<std::uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(EachNumberOfIterations, SimulationDepthOf, ::testing::Values(2U, 4U));
+
+TEST_P(SimulationDepthOf, AColumnIsHeldByTheOtherKernelsToo) {
+    for (const DensityKernel kernel : {DensityKernel::Spline, DensityKernel::Wendland}) {
+        SimulationSettings settings;
+        settings.kernel = kernel;
+        settings.iterations = GetParam();
+        settings.low = {0, 0, 0};
+        settings.high = {0.16F, 2.4F, 0.16F};
+        const std::vector<float> positions = lattice({0, 0, 0}, 4, 40, 4, 0.04F, 0.0F, 1);
+        EXPECT_LT(rise(*make(settings, positions), 1.0 / 60.0), 1.0) << static_cast<int>(kernel);
+    }
+}
+
 TEST_F(SimulationDepth, IsMeasuredAlongGravityWhicheverWayItPoints) {
     for (const std::size_t axis : {0U, 1U, 2U}) {
         SimulationSettings settings;

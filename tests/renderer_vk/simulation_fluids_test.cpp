@@ -53,8 +53,13 @@ double meanHeight(const ParticleState& state, std::uint32_t fluid) {
     return sum / number;
 }
 
-TEST_F(SimulationFluids, OneStepMatchesTheDoublePrecisionReferenceWithItsImpulses) {
+class SimulationFluidsOf : public SimulationFluids, public ::testing::WithParamInterface<DensityKernel> {};
+INSTANTIATE_TEST_SUITE_P(EachKernel, SimulationFluidsOf,
+                         ::testing::Values(DensityKernel::Poly6, DensityKernel::Spline, DensityKernel::Wendland));
+
+TEST_P(SimulationFluidsOf, OneStepMatchesTheDoublePrecisionReferenceWithItsImpulses) {
     SimulationSettings settings;
+    settings.kernel = GetParam();
     settings.low = {0, 0, 0};
     settings.high = {0.9F, 1, 0.8F};
     settings.fluids = {{1.0F, 0.02F, 0.5F, 1.0F}, {0.5F, 0.3F, 0.2F, 0.0F}, {2.0F, 0.1F, 0.0F, 2.0F}};

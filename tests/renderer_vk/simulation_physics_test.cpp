@@ -60,8 +60,13 @@ TEST_F(SimulationPhysics, MomentumWithoutGravityIsKeptToRoundOff) {
     }
 }
 
-TEST_F(SimulationPhysics, AColumnOfWaterSettlesWithoutGrowingAndHoldsItsDensity) {
+class SimulationPhysicsOf : public SimulationTest, public ::testing::WithParamInterface<DensityKernel> {};
+INSTANTIATE_TEST_SUITE_P(EachKernel, SimulationPhysicsOf,
+                         ::testing::Values(DensityKernel::Poly6, DensityKernel::Spline, DensityKernel::Wendland));
+
+TEST_P(SimulationPhysicsOf, AColumnOfWaterSettlesWithoutGrowingAndHoldsItsDensity) {
     SimulationSettings settings;
+    settings.kernel = GetParam();
     settings.low = {0, 0, 0};
     settings.high = {0.32F, 1.2F, 0.32F};
     const std::vector<float> positions = lattice({0, 0, 0}, 8, 20, 8, 0.04F, 0.0F, 1);
@@ -272,6 +277,11 @@ TEST(SimulationSettingsCheck, NamesWhatIsWrong) {
     EXPECT_THAT(message([](SimulationSettings& s) { s.high[1] = 1e9F; }), HasSubstr("100,000 radii"));
     EXPECT_THAT(message([](SimulationSettings& s) { s.gravity[0] = NAN; }), HasSubstr("gravity: expected finite"));
     EXPECT_THAT(message([](SimulationSettings& s) { s.iterations = 0; }), HasSubstr("iterations: expected 1 to 64"));
+    EXPECT_THAT(message([](SimulationSettings& s) {
+                    s.kernel = DensityKernel::Wendland;
+                    s.iterations = 1;
+                }),
+                HasSubstr("iterations: expected 2 to 64 with a kernel other than poly6, found 1"));
     EXPECT_THAT(message([](SimulationSettings& s) { s.solids = {sphereSolid({}, -1)}; }),
                 HasSubstr("solid 0: expected a radius > 0, found -1"));
     EXPECT_THAT(message([](SimulationSettings& s) { s.solids.resize(65, sphereSolid({}, 1)); }),

@@ -12,6 +12,12 @@ double spacing(const SimulationSettings& settings) {
     return 2.0 * double{settings.radius};
 }
 
+/// How much weight the iterations carry, those of poly6 as the measure. The other kernels answer a push more stiffly: a
+/// single iteration goes too far however short the step, two may do so a little. docs/results/simulation.md has where.
+double worthOfIterations(const SimulationSettings& settings) {
+    return settings.kernel == DensityKernel::Poly6 ? settings.iterations : 0.5 * (settings.iterations - 1.0);
+}
+
 }  // namespace
 
 double gravityOf(const SimulationSettings& settings) {
@@ -48,7 +54,7 @@ double longestAtDepth(const SimulationSettings& settings, double depth) {
     const double d = spacing(settings);
     // Light fluid below heavy bears the weight of so much more of its own.
     const double heaviest = depth * densityRatio(settings.fluids);
-    return d * std::sqrt(double{settings.overshoot} * settings.iterations / (gravityOf(settings) * heaviest));
+    return d * std::sqrt(double{settings.overshoot} * worthOfIterations(settings) / (gravityOf(settings) * heaviest));
 }
 
 }  // namespace sluice::vk

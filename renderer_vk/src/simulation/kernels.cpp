@@ -52,6 +52,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
     const std::uint32_t meshes = features.meshes ? 1 : 0;
     const std::uint32_t seen = features.seen ? 1 : 0;
     const std::uint32_t fluids = features.fluids ? 1 : 0;
+    const auto density = static_cast<std::uint32_t>(features.density);
     const std::vector<Use> finish{texels(Sorted), texels(Moving), texels(Curl),  texels(List), {ListCount},
                                   {Before},       {PositionOut},  {VelocityOut}, {Status},     uniform(Bodies),
                                   {Pushes},       texels(Walls),  {Meshes},      {Seen}};
@@ -92,8 +93,8 @@ std::vector<KernelDesc> descriptions(const Features& features) {
         {Kernel::Neighbours,
          simulation_neighbours_comp,
          {texels(Sorted), texels(Cells), {List, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER}, {ListCount}, {Status}}},
-        {Kernel::Lambda, simulation_lambda_comp, lambda, {0, 0, 0, meshes, seen, fluids}},
-        {Kernel::Measure, simulation_lambda_comp, lambda, {1, 0, 0, meshes, seen, fluids}},
+        {Kernel::Lambda, simulation_lambda_comp, lambda, {0, 0, 0, meshes, seen, fluids, density}},
+        {Kernel::Measure, simulation_lambda_comp, lambda, {1, 0, 0, meshes, seen, fluids, density}},
         {Kernel::Delta,
          simulation_delta_comp,
          {texels(Pushed),
@@ -106,7 +107,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
           {Meshes},
           {Seen},
           {Before}},
-         {0, bodies, 0, meshes, seen, fluids}},
+         {0, bodies, 0, meshes, seen, fluids, density}},
         {Kernel::Velocity, simulation_velocity_comp, {{Sorted}, {Before}, {Moving}}},
         {Kernel::Curl, simulation_curl_comp, {texels(Sorted), texels(Moving), texels(List), {ListCount}, {Slot::Curl}}},
         {Kernel::Surface,

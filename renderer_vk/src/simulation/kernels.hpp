@@ -11,6 +11,7 @@
 
 #include "passes/pipeline.hpp"
 #include "simulation/buffers.hpp"
+#include "simulation/density_kernel.hpp"
 
 namespace sluice::vk {
 
@@ -49,6 +50,7 @@ struct Features {
     bool seen = false;             ///< a depth field
     bool fluids = false;           ///< several, each with its own density
     std::uint32_t depth_axis = 1;  ///< along which depth is measured, where it is
+    DensityKernel density = DensityKernel::Poly6;
     bool operator==(const Features&) const = default;
 };
 

@@ -111,6 +111,12 @@ Parameters parametersOf(const SimulationSettings& s, const Grid& grid, const Ste
                 static_cast<float>(double{s.relaxation} / (h * h)), static_cast<float>(double{s.tensile} * h * h)};
     p.fluid = {s.viscosity, s.vorticity, static_cast<float>(1.0 / tensile), 1.0F / dt};
     p.search = {static_cast<float>(1.0 / grid.side), static_cast<float>(wallFactor()), 0, 0};
+    if (s.kernel != DensityKernel::Poly6) {
+        const DensityTerms terms = densityTerms(s.kernel);
+        p.fluid[2] = static_cast<float>(1.0 / terms.tensile);
+        p.constraint = {static_cast<float>(terms.centre), static_cast<float>(-terms.centre / (h * h)),
+                        static_cast<float>(terms.wall), static_cast<float>(terms.wall_slope / h)};
+    }
     p.count = {counts.living, stride, most, static_cast<std::uint32_t>(s.solids.size() + bodies.size())};
     p.change = {counts.entries, counts.births, counts.next_identity, static_cast<std::uint32_t>(s.solids.size())};
     p.grid = {grid.x, grid.y - 1, grid.z - 1, grid.cells()};

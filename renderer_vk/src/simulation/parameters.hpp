@@ -14,14 +14,14 @@ struct SolidBlock {
     std::array<float, 4> a, b, q;
 };
 struct Parameters {
-    std::array<float, 4> gravity, low, high, kernel, fluid, search;
+    std::array<float, 4> gravity, low, high, kernel, fluid, search, constraint;
     std::array<std::uint32_t, 4> count, grid, change;
     std::array<float, 4> surface;
     std::array<float, 20> adhesion;
     std::array<SolidBlock, kMaxSolids + kMaxBodies> solids;  ///< bodies behind those that stand still
     std::array<FluidBlock, kMaxFluids> fluids;
 };
-static_assert(sizeof(Parameters) == 240 + 48 * (kMaxSolids + kMaxBodies) + 32 * kMaxFluids, "std140");
+static_assert(sizeof(Parameters) == 256 + 48 * (kMaxSolids + kMaxBodies) + 32 * kMaxFluids, "std140");
 
 /// The cells of the neighbour search. x is one row of cells with an empty one at each end; y and z are powers of two
 /// and wrap around when the domain has more.

@@ -132,6 +132,10 @@ Status checkSettings(const SimulationSettings& s) {
     if (s.iterations < 1 || s.iterations > 64) {
         return wrong("simulation: iterations", "1 to 64", fmt::format("{}", s.iterations));
     }
+    if (s.kernel != DensityKernel::Poly6 && s.iterations < 2) {
+        return wrong("simulation: iterations", "2 to 64 with a kernel other than poly6",
+                     fmt::format("{}", s.iterations));
+    }
     if (!finite(s.gravity)) {
         return wrong("simulation: gravity", "finite numbers", shown(s.gravity));
     }

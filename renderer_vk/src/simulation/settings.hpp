@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "simulation/bodies.hpp"
+#include "simulation/density_kernel.hpp"
 #include "simulation/depth_field.hpp"
 #include "simulation/distance_grid.hpp"
 #include "simulation/fluids.hpp"
@@ -35,6 +36,7 @@ struct SimulationSettings {
     float overshoot = 0.17F;    ///< most that g H dt^2 / (d^2 iterations) may be, H the depth; 0: not held to
     std::vector<Fluid> fluids;  ///< none: one of density 1, with the viscosity, tension and adhesion above
     std::vector<Solid> solids;
+    DensityKernel kernel = DensityKernel::Poly6;
     SourceSettings sources;
     std::vector<Body> bodies;
     std::shared_ptr<const DistanceGrid> meshes;  ///< may be none; not with bodies, which would not meet it

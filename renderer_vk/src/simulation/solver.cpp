@@ -45,8 +45,8 @@ std::vector<Solid> wallsOf(const SimulationSettings& s) {
 }
 
 Features featuresOf(const SimulationSettings& s) {
-    return {s.vorticity > 0.0F, !s.sources.fields.empty(), !s.bodies.empty(), s.tense(),
-            s.meshed(),         s.seen != nullptr,         !s.fluids.empty(), deepestAxis(s)};
+    return {s.vorticity > 0.0F, !s.sources.fields.empty(), !s.bodies.empty(), s.tense(), s.meshed(),
+            s.seen != nullptr,  !s.fluids.empty(),         deepestAxis(s),    s.kernel};
 }
 
 double fastestJet(const SimulationSettings& s) {

@@ -6,6 +6,7 @@ list(APPEND SLUICE_VK_SOURCES
     src/simulation/buffers.cpp
     src/simulation/kernels.cpp
     src/simulation/check_sources.cpp
+    src/simulation/density_kernel.cpp
     src/simulation/depth.cpp
     src/simulation/depth_field.cpp
     src/simulation/distance_grid.cpp

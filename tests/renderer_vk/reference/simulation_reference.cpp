@@ -29,9 +29,9 @@ Lists allPairs(const std::vector<Vec>& x, double h) {
 
 double densityAt(const std::vector<Vec>& x, const std::vector<std::size_t>& list, const Kernels& kernels,
                  const Walls& walls, std::size_t i) {
-    double density = kernels.volume * kernels.poly6(0.0) + walls.density;
+    double density = kernels.volume * kernels.value(0.0) + walls.density;
     for (const std::size_t j : list) {
-        density += kernels.volume * kernels.poly6(norm(x[i] - x[j]));
+        density += kernels.volume * kernels.value(norm(x[i] - x[j]));
     }
     return density;
 }
@@ -79,7 +79,7 @@ void iterate(const SimulationSettings& s, const std::vector<Fluid>& fluids, Bodi
         Vec delta = lambda[i] * walls[i].gradient;
         for (const std::size_t j : lists[i]) {
             const Vec d = x[i] - x[j];
-            const double ratio = kernels.poly6(norm(d)) / kernels.poly6(0.2 * h);
+            const double ratio = kernels.value(norm(d)) / kernels.value(0.2 * h);
             const double artificial = -double{s.tensile} * lightest * h * h * std::pow(ratio, 4);
             delta = delta + (lambda[i] + lambda[j] + artificial) * kernels.volume * kernels.gradient(d);
         }
@@ -154,9 +154,10 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
         const Vec pull = wide(s.gravity) + fieldsAt(s, start[i]);
         x[i] = pushedOut(s, bodies, start[i] + dt * (before.velocity[i] + dt * pull), start[i], mass(fluids[i]));
     }
+    const Kernels constraint(double{s.radius}, s.kernel);
     const Lists lists = allPairs(x, kernels.h);
     for (std::uint32_t k = 0; k < s.iterations; ++k) {
-        iterate(s, fluids, bodies, kernels, lists, x, start);
+        iterate(s, fluids, bodies, constraint, lists, x, start);
     }
     std::vector<Vec> v(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -176,7 +177,7 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
         for (const std::size_t j : lists[i]) {
             const double rub = (double{fluids[i].viscosity} + double{fluids[j].viscosity}) / 2.0;
             const double share = 2.0 * mass(fluids[j]) / (mass(fluids[i]) + mass(fluids[j]));
-            drift = drift + rub * share * kernels.volume * kernels.poly6(norm(x[i] - x[j])) * (v[j] - v[i]);
+            drift = drift + rub * share * kernels.volume * kernels.value(norm(x[i] - x[j])) * (v[j] - v[i]);
             eta = eta + kernels.volume * norm(curl[j]) * kernels.gradient(x[i] - x[j]);
         }
         after.velocity[i] = v[i] + drift;
@@ -194,7 +195,7 @@ ReferenceState referenceStep(const SimulationSettings& s, const ReferenceState& 
             after.velocity[i] = after.velocity[i] + dt * double{s.vorticity} / norm(eta) * cross(eta, curl[i]);
         }
         after.velocity[i] = after.velocity[i] + dt * pull[i];
-        after.density[i] = densityAt(x, lists[i], kernels, wallsAt(s, bodies, kernels, x[i]), i);
+        after.density[i] = densityAt(x, lists[i], constraint, wallsAt(s, bodies, constraint, x[i]), i);
     }
     return after;
 }

@@ -51,34 +51,66 @@ double integral(double from, double to, const F& f) {
     return sum * step / 3.0;
 }
 
+/// Those of the density constraint, of the kind that it has; all else has poly6 and spiky.
 struct Kernels {
     double h;
-    double volume = 1.0, wall = 1.0;
+    DensityKernel kind;
+    double volume = 1.0, wall = 1.0, wall_slope = 1.0;
 
-    explicit Kernels(double radius) : h(4.0 * radius) {
+    explicit Kernels(double radius, DensityKernel kernel = DensityKernel::Poly6) : h(4.0 * radius), kind(kernel) {
         double sum = 0.0;
         double behind = 0.0;
+        double slope = 0.0;
         for (int i = 0; i < 125; ++i) {
             const int cell[3] = {i % 5 - 2, i / 5 % 5 - 2, i / 25 - 2};
             const Vec at{2.0 * radius * cell[0], 2.0 * radius * cell[1], 2.0 * radius * cell[2]};
-            sum += poly6(norm(at));
-            behind += at[0] < 0.0 ? poly6(norm(at)) : 0.0;
+            sum += value(norm(at));
+            behind += at[0] < 0.0 ? value(norm(at)) : 0.0;
+            slope += at[0] < 0.0 ? gradient(at)[0] : 0.0;
         }
         volume = 1.0 / sum;
         wall = volume * behind / halfSpace(radius);
+        wall_slope = kind == DensityKernel::Poly6 ? 1.0 : volume * slope / halfSpaceSlope(radius);
     }
-    /// Over the plane at depth z poly6 integrates to pi/4 (h^2 - z^2)^4 times its factor.
+    /// In shells about a place so far from the plane.
     [[nodiscard]] double halfSpace(double distance) const {
-        const double factor = 315.0 / (64.0 * kPi * std::pow(h, 9));
-        return factor * integral(distance, h, [this](double z) { return kPi / 4.0 * std::pow(h * h - z * z, 4); });
+        return integral(distance, h, [&](double r) { return 2.0 * kPi * r * (r - distance) * value(r); });
     }
-    [[nodiscard]] double poly6(double r) const {
-        return r < h ? 315.0 / (64.0 * kPi * std::pow(h, 9)) * std::pow(h * h - r * r, 3) : 0.0;
+    /// Over the plane that bounds it; of spiky, 15 / (pi h^6) (h - r)^3, with poly6.
+    [[nodiscard]] double halfSpaceSlope(double distance) const {
+        return wall_slope * integral(distance, h, [&](double r) {
+                   const double spiky = 15.0 / (kPi * std::pow(h, 6)) * std::pow(h - r, 3);
+                   return 2.0 * kPi * r * (kind == DensityKernel::Poly6 ? spiky : value(r));
+               });
     }
-    /// Of spiky at `d`, with respect to d.
+    [[nodiscard]] double value(double r) const {
+        const double q = r / h;
+        const double cube = h * h * h;
+        if (q >= 1.0) {
+            return 0.0;
+        }
+        if (kind == DensityKernel::Poly6) {
+            return 315.0 / (64.0 * kPi * cube) * std::pow(1.0 - q * q, 3);
+        }
+        if (kind == DensityKernel::Wendland) {
+            return 21.0 / (2.0 * kPi * cube) * std::pow(1.0 - q, 4) * (1.0 + 4.0 * q);
+        }
+        return 8.0 / (kPi * cube) * (q <= 0.5 ? 6.0 * (q * q * q - q * q) + 1.0 : 2.0 * std::pow(1.0 - q, 3));
+    }
+    /// With respect to d; spiky's with poly6.
     [[nodiscard]] Vec gradient(const Vec& d) const {
         const double r = norm(d);
-        return r < h && r > 0.0 ? -45.0 / (kPi * std::pow(h, 6)) * std::pow(h - r, 2) / r * d : Vec{};
+        const double q = r / h;
+        if (!(r > 0.0 && q < 1.0)) {
+            return {};
+        }
+        double slope = -45.0 * std::pow(1.0 - q, 2);
+        if (kind == DensityKernel::Wendland) {
+            slope = -210.0 * q * std::pow(1.0 - q, 3);
+        } else if (kind == DensityKernel::Spline) {
+            slope = 48.0 * (q <= 0.5 ? q * (3.0 * q - 2.0) : -std::pow(1.0 - q, 2));
+        }
+        return slope / (kPi * std::pow(h, 4) * r) * d;
     }
 };
 
@@ -207,9 +239,7 @@ inline Walls wallsAt(const SimulationSettings& s, const Bodies& bodies, const Ke
     for (const Contact& contact : contacts(s, bodies, x)) {
         const double d = std::clamp(contact.distance, 0.0, h);
         const double share = kernels.wall * kernels.halfSpace(d);
-        // The gradient of a half-space is spiky, 15 / (pi h^6) (h - r)^3, over the plane that bounds it.
-        const double slope = 15.0 / (kPi * std::pow(h, 6)) *
-                             integral(d, h, [h](double r) { return 2.0 * kPi * r * std::pow(h - r, 3); });
+        const double slope = kernels.halfSpaceSlope(d);
         walls.gradient = (1.0 - share) * walls.gradient - slope * (1.0 - walls.density) * contact.normal;
         for (Vec& part : walls.parts) {
             part = (1.0 - share) * part;
