@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/simulate_setup.hpp"
+#include "app/start_file.hpp"
 
 namespace sluice::cli {
 namespace {
@@ -150,7 +151,7 @@ SluiceSimulation LiveFluid::view() const {
 }
 
 bool simulatesLive(const scene::Scene& scene) {
-    return scene.particles.path.empty() && !(scene.simulation.fluid.empty() && scene.simulation.emitters.empty());
+    return scene.particles.path.empty() && hasFluid(scene.simulation);
 }
 
 Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulator::Mesh>& meshes,
@@ -164,7 +165,7 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulat
     if (Status status = simulator::addMeshes(setup, meshes); !status) {
         return status.error();
     }
-    Result<simulator::Particles> start = startOfFluid(scene.simulation, setup, request.seed);
+    Result<simulator::Particles> start = wholeStart(scene.simulation, setup, request.seed);
     if (!start) {
         return start.error();
     }

@@ -28,6 +28,9 @@ FileRoles inputRoles(const RenderOptions& options, const RenderInputs& inputs) {
     for (const scene::SolidMesh& mesh : inputs.scene.simulation.meshes) {
         roles.add("the mesh file", mesh.path);
     }
+    if (!inputs.scene.simulation.start.empty()) {
+        roles.add("the file of the start", inputs.scene.simulation.start);
+    }
     if (!options.no_fluid) {
         for (const std::filesystem::path& place : pluginPlaces(options.plugin)) {
             roles.add("the renderer plugin", place);

@@ -10,6 +10,7 @@
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
 #include "app/mesh_files.hpp"
+#include "app/start_file.hpp"
 #include "report/progress.hpp"
 
 namespace sluice::cli {
@@ -148,8 +149,7 @@ Status checkInputs(RenderInputs& inputs, bool progress) {
             Error error = set.error();
             std::error_code ignored;
             const scene::Simulation& simulation = inputs.scene.simulation;
-            if ((!simulation.fluid.empty() || !simulation.emitters.empty()) &&
-                !std::filesystem::exists(path.value(), ignored)) {
+            if (hasFluid(simulation) && !std::filesystem::exists(path.value(), ignored)) {
                 error.remedy = fmt::format("to simulate them: sluice simulate {} -o {}", inputs.scene_file,
                                            inputs.scene.particles.path);
             }

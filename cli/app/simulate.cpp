@@ -13,6 +13,7 @@
 #include "app/output_folders.hpp"
 #include "app/outputs.hpp"
 #include "app/simulate_setup.hpp"
+#include "app/start_file.hpp"
 #include "report/progress.hpp"
 #include "report/simulation_report.hpp"
 #include "sluice/particles/particles.hpp"
@@ -38,6 +39,9 @@ Status checkRoles(const SimulateOptions& options, const scene::Simulation& setti
     roles.add("the scene file", options.scene);
     for (const scene::SolidMesh& mesh : settings.meshes) {
         roles.add("the mesh file", mesh.path);
+    }
+    if (!settings.start.empty()) {
+        roles.add("the file of the start", settings.start);
     }
     for (std::int64_t frame = frames.first; frame <= frames.last; ++frame) {
         const Result<std::filesystem::path> path = outputPath(options.output, frame);
@@ -199,7 +203,7 @@ int simulate(const SimulateOptions& options) {
         logError(status.error());
         return kExitBadInput;
     }
-    Result<simulator::Particles> start = startOfFluid(settings, setup, options.seed);
+    Result<simulator::Particles> start = wholeStart(settings, setup, options.seed);
     if (!start) {
         Error error = start.error();
         error.thing = options.scene + ": " + error.thing;

@@ -190,6 +190,7 @@ void visitSimulation(Visitor& v, Simulation& s) {
     });
     v.number("jitter", s.jitter, Range{0.0, 0.5});
     v.flag("collide_with_engine", s.collide_with_engine);
+    v.text("start", s.start);
     v.list("fluid", s.fluid, [](auto& o, FluidBox& box) {
         o.numbers("low", box.low, kAnyLength);
         o.numbers("high", box.high, kAnyLength);

@@ -107,6 +107,55 @@ TEST_F(Live, EllipsoidsAreDrawnIfTheSceneAsksAndAreTheSameInAProcessOfTheirOwn) 
     EXPECT_TRUE(read("round.png") == read("spheres.png"));
 }
 
+TEST_F(Live, AFileToBeginWithGivesThePicturesOfTheSimulatedFilesAndWhatIsWrongWithItIsNamed) {
+    writeFluid("s.json");
+    ASSERT_EQ(run("simulate s.json -o cold_##.ply --frames 3..3").code, 0);
+    nlohmann::json scene = nlohmann::json::parse(read("s.json"));
+    scene["frames"] = {1, 3};
+    scene["simulation"]["start"] = "cold_03.ply";
+    scene["simulation"]["fluid"] = {
+        {{"low", {0.6, 1.4, -0.2}}, {"high", {0.8, 1.6, 0.2}}, {"velocity", {0, 0, 0}}}};  // more, above it
+    write("warm.json", scene.dump());
+    ASSERT_EQ(run("simulate warm.json -o f_##.ply").code, 0);
+    EXPECT_GT(read("f_01.ply").size(), read("cold_03.ply").size());
+    ASSERT_EQ(run("render warm.json --particles f_##.ply -o file_##.png").code, 0);
+    EXPECT_EQ(render("warm.json -o live_##.png --validation")["particles"]["count"], 8 * 6 * 8 + 2 * 2 * 4);
+    (void)render("warm.json -o alone_##.png --isolate");
+    EXPECT_FALSE(read("file_01.png") == read("file_03.png"));
+    for (const char* number : {"01.png", "02.png", "03.png"}) {
+        EXPECT_TRUE(read(std::string("live_") + number) == read(std::string("file_") + number)) << number;
+        EXPECT_TRUE(read(std::string("alone_") + number) == read(std::string("file_") + number)) << number;
+    }
+    // By both commands, before anything is written.
+    const auto refused = [&] {
+        write("wrong.json", scene.dump());
+        const Outcome outcome = run("simulate wrong.json -o no.ply --frames 1..1");
+        EXPECT_EQ(outcome.code, 2);
+        EXPECT_EQ(run("render wrong.json -o no.png --frames 1..1").code, 2);
+        return outcome.err;
+    };
+    scene["simulation"]["fluid"][0]["low"] = {-1, 0, -1};
+    EXPECT_THAT(refused(), HasSubstr("expected a position outside /simulation/fluid/0"));
+    scene["simulation"]["fluid"] = nlohmann::json::array();
+    scene["simulation"]["radius"] = 0.04;
+    EXPECT_THAT(refused(), HasSubstr("cold_03.ply: expected particles of the radius of the simulation, 0.04 m"));
+    scene["simulation"]["radius"] = 0.05;
+    scene["simulation"]["spheres"] = {{{"centre", {-0.2, 0.6, 0}}, {"radius", 0.2}}};
+    EXPECT_THAT(refused(), HasSubstr("expected a position in the domain, outside solids and bodies"));
+    std::string cut = read("cold_03.ply");
+    cut.resize(cut.size() - 5);
+    write("cut.ply", cut);
+    scene["simulation"]["start"] = "cut.ply";
+    EXPECT_THAT(refused(), HasSubstr("cut.ply"));
+    scene["simulation"]["start"] = "none.pos";
+    EXPECT_THAT(refused(), HasSubstr("none.pos: cannot be read"));
+    scene["simulation"]["start"] = "cold_03.ply";
+    write("wrong.json", scene.dump());
+    const Outcome over = run("simulate wrong.json -o cold_##.ply --frames 3..3");
+    EXPECT_EQ(over.code, 1);
+    EXPECT_THAT(over.err, HasSubstr("would be the file of the start and the output file (-o) at once"));
+}
+
 TEST_F(Live, AMeshIsASolidAndIsDrawn) {
     writeFluid("s.json");
     nlohmann::json scene = nlohmann::json::parse(read("s.json"));

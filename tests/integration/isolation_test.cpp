@@ -232,6 +232,7 @@ TEST_F(IsolationTest, ABodyIsDrivenAndReadBackInHereAndOverThere) {
         simulation.position = position.data();
         simulation.bodies = &body;
         simulation.particle_count = simulation.body_count = 1;
+        simulation.max_particles = 2;
         ASSERT_TRUE(host_->setSimulation(&simulation));
         EXPECT_EQ(host_->simulationBodies(1).error().code, SLUICE_NOT_READY);
         auto target = sized<SluiceBodyTarget>();
@@ -247,6 +248,18 @@ TEST_F(IsolationTest, ABodyIsDrivenAndReadBackInHereAndOverThere) {
         EXPECT_EQ(bodies.value().value, 1U);
         EXPECT_EQ(bodies.value().bodies[0].centre[0], 0.25F);
         EXPECT_NEAR(bodies.value().bodies[0].velocity[0], 2.0F, 1e-4F);
+        // And the fluid begins anew, with more.
+        std::vector<float> two{0.0F, 0.1F, 0.0F, 0.2F, 0.1F, 0.0F};
+        auto start = sized<SluiceStart>();
+        start.particle_count = 2;
+        start.position = start.velocity = two.data();
+        ASSERT_TRUE(host_->resetSimulation(start));
+        ASSERT_TRUE(host_->simulate(2, 0.0));
+        ASSERT_TRUE(host_->waitForSimulation(2, 60'000'000'000));
+        EXPECT_EQ(host_->simulationStats().value().particle_count, 2U);
+        EXPECT_EQ(host_->simulationBodies(2).value().bodies[0].centre[0], 0.0F) << "where it began";
+        two[4] = 7.0F;
+        EXPECT_THAT(host_->resetSimulation(start).error().message(), HasSubstr("particle 1: expected a position in"));
     }
 }
 

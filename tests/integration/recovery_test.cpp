@@ -18,6 +18,7 @@ namespace sluice::host::test {
 namespace {
 
 using ::testing::AllOf;
+using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -229,6 +230,52 @@ TEST_F(RecoveryTest, ASimulationThatANewRendererRefusesIsDroppedAndTheRestGoesOn
     EXPECT_EQ(run(2), "ff");
     EXPECT_TRUE(host_->simulate(2, 0.0)) << "nothing flows, as the log has said";
     EXPECT_EQ(run(1), "f");
+    complaints_.clear();
+}
+
+TEST_F(RecoveryTest, ANewRendererBeginsWithWhatTheSimulationWasResetTo) {
+    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
+    const std::vector<float> position{0.25F, 0.1F, 0.0F, 0.5F, 0.1F, 0.0F};
+    auto start = sized<SluiceStart>();
+    start.particle_count = 2;
+    start.position = position.data();
+    EXPECT_THAT(host_->resetSimulation(start).error().message(), HasSubstr("there is no simulation"));
+    auto simulation = sized<SluiceSimulation>();
+    simulation.frames_in_flight = simulation.iterations = 1;
+    simulation.radius = 0.05F;
+    simulation.relaxation = 0.1F;
+    simulation.cfl = 0.4F;
+    simulation.longest_step = 0.01;
+    std::fill_n(&simulation.low[0], 3, -1.0F);
+    std::fill_n(&simulation.high[0], 3, 1.0F);
+    simulation.position = position.data();
+    simulation.particle_count = 1;
+    simulation.max_particles = 2;
+    ASSERT_TRUE(host_->setSimulation(&simulation));
+    ASSERT_TRUE(host_->simulate(1, 0.01));
+    ASSERT_TRUE(host_->resetSimulation(start));
+    ASSERT_TRUE(host_->simulate(2, 0.01));
+    control_->lose_submit = 1;
+    EXPECT_EQ(run(1), "-");
+    control_->lose_submit = 0;
+    complaints_.clear();
+    EXPECT_EQ(run(2), "ff");
+    EXPECT_THAT(complaints_,
+                Contains(HasSubstr("from value 2 on it begins again, with what it was reset to for value 2")));
+    ASSERT_TRUE(host_->waitForSimulation(2, 60'000'000'000));
+    EXPECT_EQ(host_->simulationStats().value().particle_count, 2U);
+    // While there is none it is only kept; what the next one refuses of it goes alone.
+    control_->lose_submit = 3;
+    EXPECT_EQ(run(1), "-");
+    control_->lose_submit = 0;
+    start.particle_count = 3;
+    const std::vector<float> three(9, 0.1F);
+    start.position = three.data();
+    ASSERT_TRUE(host_->resetSimulation(start));
+    complaints_.clear();
+    EXPECT_EQ(run(3), "-ff");
+    EXPECT_THAT(complaints_, Contains(HasSubstr("start set last: dropped")));
+    EXPECT_EQ(host_->simulationStats().value().particle_count, 1U);
     complaints_.clear();
 }
 

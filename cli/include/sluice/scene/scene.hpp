@@ -161,6 +161,7 @@ struct Simulation {
     Anisotropy anisotropy;
     float jitter = 0.05F;                   ///< radii that a particle may be off its lattice at the start
     std::uint32_t collide_with_engine = 1;  ///< floor, pillars, crates and basins are solids too
+    std::string start;  ///< particle file that the fluid begins with, resolved like a mesh's; empty: none
     std::vector<FluidBox> fluid;
     std::vector<FluidKind> fluids;  ///< none: water, with the viscosity, tension and adhesion above
     std::vector<SolidSphere> spheres;

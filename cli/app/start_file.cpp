@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: MIT
+#include "app/start_file.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "app/simulate_setup.hpp"
+#include "sluice/particles/particles.hpp"
+
+namespace sluice::cli {
+namespace {
+
+/// Formats keep 32-bit floats; whoever wrote one in text may have rounded it.
+constexpr double kSameRadius = 1e-3;
+
+bool within(const scene::FluidBox& box, const float* x) {
+    bool inside = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        inside = inside && x[axis] > box.low.at(axis) && x[axis] < box.high.at(axis);
+    }
+    return inside;
+}
+
+std::uint32_t nearestFluid(const std::vector<scene::FluidKind>& fluids, const float* colour) {
+    std::uint32_t nearest = 0;
+    double least = 1e300;
+    for (std::uint32_t i = 0; i < fluids.size(); ++i) {
+        double apart = 0.0;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const double d = double{fluids[i].colour.at(channel)} - double{colour[channel]};
+            apart += d * d;
+        }
+        if (apart < least) {
+            least = apart;
+            nearest = i;
+        }
+    }
+    return nearest;
+}
+
+Status checkPlaces(const scene::Simulation& simulation, const simulator::Setup& setup,
+                   const particles::ParticleSet& set) {
+    const auto refused = [&](std::size_t i, const std::string& expected, const std::string& remedy) {
+        const float* x = &set.position[3 * i];
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, simulation.start,
+                     fmt::format("particle {}: expected {}, found [{}, {}, {}]", i, expected, x[0], x[1], x[2]),
+                     remedy};
+    };
+    const std::vector<double> clear = simulator::clearances(setup, set.position);
+    for (std::size_t i = 0; i < clear.size(); ++i) {
+        // Negated so that NaN fails as well.
+        if (!(clear[i] >= 0.0)) {
+            return refused(i, "a position in the domain, outside solids and bodies",
+                           "simulate the file with the same solids, or leave them out");
+        }
+        for (std::size_t box = 0; box < simulation.fluid.size(); ++box) {
+            if (within(simulation.fluid[box], &set.position[3 * i])) {
+                return refused(i, fmt::format("a position outside /simulation/fluid/{}", box),
+                               "put the box where there is no fluid yet");
+            }
+        }
+    }
+    return {};
+}
+
+Result<simulator::Particles> readStart(const scene::Simulation& simulation, const simulator::Setup& setup) {
+    Result<particles::ParticleSet> read = particles::load(simulation.start, simulation.radius);
+    if (!read) {
+        return read.error();
+    }
+    particles::ParticleSet& set = read.value();
+    if (std::abs(double{set.radius} - double{simulation.radius}) > kSameRadius * double{simulation.radius}) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, simulation.start,
+                     fmt::format("expected particles of the radius of the simulation, {} m, found {} m",
+                                 simulation.radius, set.radius),
+                     "set /simulation/radius to that of the file"};
+    }
+    if (set.count() > kMostSimulated) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, simulation.start,
+                     fmt::format("expected at most {} particles, found {}", kMostSimulated, set.count()),
+                     "begin with fewer"};
+    }
+    if (Status status = checkPlaces(simulation, setup, set); !status) {
+        return status.error();
+    }
+    simulator::Particles start;
+    if (!simulation.fluids.empty()) {
+        start.fluid.resize(set.count());
+        for (std::size_t i = 0; i < set.count() && !set.colour.empty(); ++i) {
+            start.fluid[i] = nearestFluid(simulation.fluids, &set.colour[3 * i]);
+        }
+    }
+    start.position = std::move(set.position);
+    start.velocity = std::move(set.velocity);
+    start.velocity.resize(start.position.size());  // at rest
+    return start;
+}
+
+template <typename T>
+void append(std::vector<T>& to, const std::vector<T>& from) {
+    to.insert(to.end(), from.begin(), from.end());
+}
+
+}  // namespace
+
+bool hasFluid(const scene::Simulation& simulation) {
+    return !simulation.start.empty() || !simulation.fluid.empty() || !simulation.emitters.empty();
+}
+
+Result<simulator::Particles> wholeStart(const scene::Simulation& simulation, const simulator::Setup& setup,
+                                        std::uint64_t seed) {
+    if (simulation.start.empty()) {
+        return startOfFluid(simulation, setup, seed);
+    }
+    Result<simulator::Particles> start = readStart(simulation, setup);
+    if (!start || simulation.fluid.empty()) {
+        return start;
+    }
+    const Result<simulator::Particles> more = startOfFluid(simulation, setup, seed);
+    if (!more) {
+        return more;
+    }
+    simulator::Particles& all = start.value();
+    append(all.position, more.value().position);
+    append(all.velocity, more.value().velocity);
+    append(all.fluid, more.value().fluid);
+    if (all.position.size() / 3 > kMostSimulated) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "/simulation/fluid",
+                     fmt::format("expected at most {} particles with those of {}, found {}", kMostSimulated,
+                                 simulation.start, all.position.size() / 3),
+                     "make the boxes smaller"};
+    }
+    return start;
+}
+
+}  // namespace sluice::cli
