@@ -32,6 +32,7 @@ struct Mistake {
     std::uint64_t frame = 0;
     bool queue_skips_wait = false, host_skips_wait = false, names_left_out = false, submit_fails = false;
     bool queue_mute = false;  ///< from that frame on
+    bool reads_depth_early = false, captures_early = false;
 };
 
 class Rig {
@@ -46,6 +47,11 @@ class Rig {
         for (std::uint64_t i = 0; i < count; ++i) {
             frame(next_++);
         }
+    }
+    /// Frames capture their depth for a fluid, which reads that of the frame before; two buffers take turns.
+    void simulate() {
+        feed_->simulationMade(2);
+        simulates_ = true;
     }
     void resize(bool drained = true) {
         tellQueue(0);
@@ -85,6 +91,9 @@ class Rig {
             return;
         }
         late_.push_back(k);
+        if (simulates_) {
+            fluid(k + 1);
+        }
         if (!(wrong && mistake_.host_skips_wait)) {
             wait(fluidWritten(k));
         }
@@ -121,11 +130,26 @@ class Rig {
             late_.pop_front();
         }
     }
-    void trace(SluiceTraceKind kind, std::uint64_t frame, std::uint64_t value, const char* name) {
+    /// Value v takes the depth of frame v - 1 and lets go of that before.
+    void fluid(std::uint64_t value) {
+        const std::uint64_t seen = value - 1;
+        if (!(mistake_.frame == seen && mistake_.reads_depth_early)) {
+            trace(SLUICE_TRACE_WAIT, value, seen, "depth captured", SLUICE_TRACK_SIMULATION);
+        }
+        trace(SLUICE_TRACE_ACQUIRE, value, seen, depthName(seen), SLUICE_TRACK_SIMULATION);
+        if (seen > 1) {
+            trace(SLUICE_TRACE_RELEASE, value, seen - 1, depthName(seen - 1), SLUICE_TRACK_SIMULATION);
+        }
+    }
+    static const char* depthName(std::uint64_t frame) {
+        return frame % 2 == 0 ? "CAPTURED_DEPTH 0" : "CAPTURED_DEPTH 1";
+    }
+    void trace(SluiceTraceKind kind, std::uint64_t frame, std::uint64_t value, const char* name,
+               SluiceTrack track = SLUICE_TRACK_RENDERER_QUEUE) {
         SluiceTraceEvent event{};
         event.struct_size = sizeof(event);
         event.kind = kind;
-        event.track = SLUICE_TRACK_RENDERER_QUEUE;
+        event.track = track;
         event.begin_ns = monotonicNanoseconds();
         event.frame = frame;
         event.value = value;
@@ -137,10 +161,17 @@ class Rig {
         if (!(k == mistake_.frame && mistake_.queue_skips_wait)) {
             trace(SLUICE_TRACE_WAIT, k, gbufferWritten(k), "queue waits for host");
         }
+        if (simulates_) {
+            const bool early = k == mistake_.frame && mistake_.captures_early;
+            trace(SLUICE_TRACE_ACQUIRE, k, k > 2 && !early ? k - 2 : 0, depthName(k));
+        }
         for (const char* image : kImages) {
             trace(SLUICE_TRACE_ACQUIRE, k, 0, image);
         }
         trace(SLUICE_TRACE_PASS, k, 0, "shade");
+        if (simulates_) {
+            trace(SLUICE_TRACE_RELEASE, k, k, depthName(k));
+        }
         for (const char* image : kImages) {
             trace(SLUICE_TRACE_RELEASE, k, 0, image);
         }
@@ -153,6 +184,7 @@ class Rig {
     std::unique_ptr<HandOffFeed> feed_;
     std::uint64_t next_ = 1;
     std::deque<std::uint64_t> late_;
+    bool simulates_ = false;
     int went_blind_ = 0;
 };
 
@@ -266,6 +298,40 @@ INSTANTIATE_TEST_SUITE_P(Kinds, HandOffFeedOf,
                              return std::string(sluice::toString(std::get<0>(param.param))) +
                                     std::to_string(std::get<1>(param.param));
                          });
+
+TEST(HandOffFeed, ACapturedDepthIsReadAfterItsFrameAndCapturedIntoAfterThat) {
+    Mistake early_read;
+    early_read.frame = 6;
+    early_read.reads_depth_early = true;
+    Mistake early_capture;
+    early_capture.frame = 6;
+    early_capture.captures_early = true;
+    for (const std::uint32_t sets : {1U, 2U, 4U}) {
+        const auto found = [sets](const Mistake& mistake) {
+            Rig rig(SLUICE_TIMELINE_BRIDGED, sets, mistake);
+            rig.simulate();
+            rig.frames(12);
+            rig.end();
+            EXPECT_FALSE(rig.ledger.unchecked());
+            return rig.found();
+        };
+        EXPECT_THAT(found({}), IsEmpty()) << sets;
+        auto read = found(early_read);
+        EXPECT_EQ(read.size(), 2U) << ::testing::PrintToString(read);
+        EXPECT_THAT(read["stale-read"], HasSubstr("ordered after the write of version 4 by renderer's queue"));
+        EXPECT_THAT(read["race-read-after-write"],
+                    AllOf(HasSubstr("simulation reads captured depth 0"), HasSubstr("(version 6)"),
+                          HasSubstr("renderer's queue:signal(frames that drew, 6) -> simulation:wait(frames that drew, "
+                                    "6)")))
+            << sets;
+        auto capture = found(early_capture);
+        EXPECT_EQ(capture.size(), 1U);
+        EXPECT_THAT(capture["race-write-after-read"],
+                    AllOf(HasSubstr("renderer's queue writes captured depth 0 in frame 6"),
+                          HasSubstr("captured depths that are free")))
+            << sets;
+    }
+}
 
 TEST(HandOffFeed, TheChainNamesTheFenceThatTheBridgeWaitsFor) {
     Rig rig(SLUICE_TIMELINE_BRIDGED, 2);

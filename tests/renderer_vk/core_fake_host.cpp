@@ -212,6 +212,18 @@ std::vector<std::byte> FakeHost::texels(SluiceImageRole role, std::uint32_t set)
     return mine.import(image) && mine.copy(out, image, false) ? out : std::vector<std::byte>{};
 }
 
+bool FakeHost::fill(SluiceImageRole role, std::uint32_t set, std::span<const std::byte> texels) const {
+    const auto kept = descriptors_.find({role, set});
+    if (kept == descriptors_.end()) {
+        return false;
+    }
+    SluiceImageExport image = held_.at({role, set});
+    image.fd = kept->second.get();
+    Imported mine(*device_);
+    std::vector<std::byte> in(texels.begin(), texels.end());
+    return mine.import(image) && mine.copy(in, image, true).ok();
+}
+
 SluiceResult FakeHost::onCanary(void* user, const SluiceImageExport* image, std::uint32_t seed, SluiceError* error) {
     auto& self = *static_cast<FakeHost*>(user);
     ++self.canaries;

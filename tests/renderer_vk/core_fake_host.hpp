@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -56,7 +57,10 @@ class FakeHost {
     /// Empty if it cannot be read.
     [[nodiscard]] std::vector<std::byte> texels(SluiceImageRole role, std::uint32_t set) const;
 
-    bool keep_descriptors = false;             ///< before create: texels() will be asked for
+    /// Writes a shared image, rows bottom-up, as the host's own drawing would; it is the host's.
+    [[nodiscard]] bool fill(SluiceImageRole role, std::uint32_t set, std::span<const std::byte> texels) const;
+
+    bool keep_descriptors = false;             ///< before create: texels() will be asked for, or fill()
     int fail_share_after = -1;                 ///< the n-th share_image fails; -1: none
     std::uint32_t fail_canary_formats = 0;     ///< bit per format: the host says that it saw wrong texels
     std::uint32_t corrupt_canary_formats = 0;  ///< bit per format: the host writes back a wrong pattern

@@ -5,12 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "core_fake_host.hpp"
+#include "device/one_shot.hpp"
+#include "memory/buffer.hpp"
+#include "plugin/renderer.hpp"
 #include "simulation/solver.hpp"
 
 namespace sluice::vk::test {
@@ -92,6 +96,7 @@ class LiveFluid : public ::testing::Test {
         renderer.reset();
         host = std::make_unique<FakeHost>(tracing);
         host->keep_descriptors = true;
+        host->fail_canary_formats = without_formats;
         SluiceCreateInfo info = host->createInfo();
         info.validation = validation ? 1 : 0;
         renderer = std::make_unique<TestRenderer>(*host, info);
@@ -128,6 +133,21 @@ class LiveFluid : public ::testing::Test {
         }
         return pictures;
     }
+    /// Of a value that a frame has drawn and whose slot is not asked for again.
+    std::vector<float> positions(std::uint64_t value) {
+        const Device& device = renderer->get()->device();
+        const ParticleBuffers from = renderer->get()->simulation()->slots().buffers(value);
+        std::vector<float> out(std::size_t{3} * stats().particle_count);
+        const VkDeviceSize bytes = out.size() * sizeof(float);
+        auto to = Buffer::create(device, {bytes, VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::Readback, "positions"});
+        EXPECT_TRUE(to) << to.error().message();
+        const VkBufferCopy all{0, 0, bytes};
+        EXPECT_TRUE(runOnce(device, [&](VkCommandBuffer commands) {
+            device.fn.vkCmdCopyBuffer(commands, from.position, to.value().buffer(), 1, &all);
+        }));
+        std::memcpy(out.data(), to.value().mapped().data(), bytes);
+        return out;
+    }
     SluiceSimulationStats stats() {
         auto out = sized<SluiceSimulationStats>();
         EXPECT_EQ(api().simulation_stats(renderer->get(), &out), SLUICE_OK);
@@ -144,6 +164,7 @@ class LiveFluid : public ::testing::Test {
             lines.begin(), lines.end(), [&](const std::string& line) { return line.find(text) != std::string::npos; }));
     }
 
+    std::uint32_t without_formats = 0;  ///< bits of formats that the host of start() does not have
     SluiceBodies scratch = sized<SluiceBodies>();
     std::unique_ptr<FakeHost> host;
     std::unique_ptr<TestRenderer> renderer;

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -165,7 +167,7 @@ TEST(SharedBuffers, TheViewOfASecondQueueKnowsBothFamilies) {
 }
 
 TEST(SeenDepths, EachValueHasTheDepthOfAFrameThatIsKnownByNumber) {
-    const auto made = [] { return std::make_shared<const Buffer>(); };
+    const auto made = [] { return std::make_shared<const DepthBuffer>(); };
     SeenDepths depths(2);
     EXPECT_EQ(depths.sourceOf(1), 0U) << "nothing has been seen by then";
     EXPECT_EQ(depths.sourceOf(2), 1U);
@@ -228,21 +230,31 @@ TEST_F(LiveFluid, WaitsForTheDepthOfTheFrameThatItCollidesWith) {
         EXPECT_EQ(stats().failed, 0U) << stats().message;
         renderer->destroy();
         std::map<std::uint64_t, std::uint64_t> waited;  // by value: the frame
-        std::uint64_t released = 0;
-        std::uint64_t acquired = 0;
+        // Of frames and of the simulation.
+        std::array<std::uint64_t, 2> released{};
+        std::array<std::uint64_t, 2> acquired{};
+        std::uint64_t freed = 0;
         for (const SeenEvent& seen : host->events()) {
             if (seen.name == "depth captured") {
                 waited[seen.event.frame] = seen.event.value;
             }
-            released += seen.name == "CAPTURED_DEPTH" && seen.event.kind == SLUICE_TRACE_RELEASE ? 1U : 0U;
-            acquired += seen.name == "CAPTURED_DEPTH" && seen.event.kind == SLUICE_TRACE_ACQUIRE ? 1U : 0U;
+            if (!seen.name.starts_with("CAPTURED_DEPTH ")) {
+                continue;
+            }
+            const std::size_t by = seen.event.track == SLUICE_TRACK_SIMULATION ? 1 : 0;
+            released.at(by) += seen.event.kind == SLUICE_TRACE_RELEASE ? 1U : 0U;
+            acquired.at(by) += seen.event.kind == SLUICE_TRACE_ACQUIRE ? 1U : 0U;
+            if (by == 1 && seen.event.kind == SLUICE_TRACE_RELEASE) {
+                EXPECT_EQ(seen.event.value, ++freed);
+            }
+            EXPECT_LT(seen.name.back(), '5') << "buffers are used again";
         }
         // Frame 4 has captured nothing: who needs it has what frame 3 left.
         const std::map<std::uint64_t, std::uint64_t> lag_of_one{{2, 1}, {3, 2}, {4, 3}, {6, 5}};
         const std::map<std::uint64_t, std::uint64_t> lag_of_two{{2, 1}, {4, 2}, {5, 3}};
         EXPECT_EQ(waited, in_flight == 1 ? lag_of_one : lag_of_two) << in_flight;
-        EXPECT_EQ(acquired, waited.size());
-        EXPECT_EQ(released, kValues - 1);
+        EXPECT_EQ(acquired, (std::array<std::uint64_t, 2>{kValues - 1, waited.size()}));
+        EXPECT_EQ(released, (std::array<std::uint64_t, 2>{kValues - 1, waited.size() - 1}));
     }
     Block bad;
     ASSERT_NO_FATAL_FAILURE(start(bad));
@@ -265,6 +277,69 @@ TEST_F(LiveFluid, WaitsForTheDepthOfTheFrameThatItCollidesWith) {
     stretched.camera.view[0] *= 2.0F;
     EXPECT_EQ(renderer->submit(stretched), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_NE(std::string(renderer->error().message).find("frame.camera: expected a view"), std::string::npos);
+}
+
+/// What a camera of frameOf sees of a floor, and on its right side of one that is higher; both rise from frame to
+/// frame.
+std::vector<float> floorSeen(const SluiceCamera& camera, std::uint64_t frame) {
+    std::vector<float> metres(64 * 48, std::numeric_limits<float>::infinity());
+    for (std::size_t i = 0; i < metres.size(); ++i) {
+        const float way = ((static_cast<float>(i / 64) + 0.5F) / 24.0F - 1.0F) / camera.projection[5];
+        const float height = (i % 64 < 32 ? -0.33F : -0.31F) + 0.002F * static_cast<float>(frame);
+        if (way < 0.0F && i % 37 != 0) {
+            metres[i] = height / way;
+        }
+    }
+    return metres;
+}
+
+TEST_F(LiveFluid, AmongCapturedDepthsItIsTheSolverAmongTheSameDepthsToTheBit) {
+    constexpr std::uint64_t kValues = 6;
+    const SluiceCamera camera = frameOf(1, 2).camera;
+    DepthView view;
+    std::copy_n(&camera.view[0], 16, view.view.begin());
+    std::copy_n(&camera.projection[0], 16, view.projection.begin());
+    view.near_plane = camera.near_plane;
+    without_formats = 1U << SLUICE_FORMAT_D32F;  // so it is metres that cross, and nothing has to be computed twice
+    for (const std::uint32_t in_flight : {1U, 3U}) {
+        Block block(in_flight);
+        block.simulation.depth_scale = 2;
+        block.simulation.depth_lag = in_flight == 3 ? 2 : 1;
+        const std::uint64_t lag = block.simulation.depth_lag;
+        const std::vector<ParticleState> blind =
+            alone(block.settings, block.position, block.simulation.longest_step, kValues);
+        block.settings.seen = std::make_shared<const DepthField>();
+        std::uint64_t reached = 0;
+        const auto look = [&](Solver& solver) {
+            const std::uint64_t seen = std::max<std::uint64_t>(++reached + 1, lag + 1) - lag;
+            const float thickness = kThicknessInRadii * block.settings.radius;
+            EXPECT_TRUE(solver.setDepthField(depthField(view, 64, 48, 2, thickness, floorSeen(camera, seen))));
+        };
+        const std::vector<ParticleState> expected =
+            alone(block.settings, block.position, block.simulation.longest_step, kValues, look);
+        EXPECT_NE(expected.back().position, blind.back().position) << "nobody has met the floor";
+
+        ASSERT_NO_FATAL_FAILURE(start(block));
+        ASSERT_EQ(renderer->get()->info().host_depth_encoding, std::uint32_t{SLUICE_DEPTH_LINEAR});
+        std::uint64_t asked = 0;
+        for (std::uint64_t k = 1; k <= kValues; ++k) {
+            for (; asked < std::min(kValues, k + in_flight - 1); ++asked) {
+                ASSERT_EQ(simulate(asked + 1, asked == 0 ? 0.0 : kFrame), SLUICE_OK) << said.message;
+            }
+            SluiceFrame frame = frameOf(k, 2, SLUICE_VIEW_FLUID);
+            frame.simulation = k;
+            frame.flags = SLUICE_FRAME_CAPTURE_DEPTH;
+            ASSERT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
+            const std::vector<float> metres = floorSeen(camera, k);
+            ASSERT_TRUE(host->fill(SLUICE_IMAGE_HOST_DEPTH, frame.image_set, std::as_bytes(std::span(metres))));
+            ASSERT_EQ(api().timeline_signal(renderer->get(), frame.wait_value), SLUICE_OK);
+            ASSERT_EQ(api().timeline_wait(renderer->get(), k, kLong), SLUICE_OK);
+            ASSERT_EQ(api().timeline_signal(renderer->get(), frame.wait_value + 1), SLUICE_OK);
+            EXPECT_EQ(positions(k), expected[k - 1].position) << "value " << k << ", lag " << lag;
+        }
+        EXPECT_EQ(stats().failed, 0U) << stats().message;
+        EXPECT_EQ(frameStats(kValues).validation_messages, 0U);
+    }
 }
 
 TEST_F(LiveFluid, TellsEachStepAndEachSideOfTheHandOver) {

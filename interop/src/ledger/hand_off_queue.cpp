@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 
 #include "hand_off_roles.hpp"
 #include "sluice/format.hpp"
@@ -10,6 +11,12 @@
 #include "sluice/trace.hpp"
 
 namespace sluice::ledger {
+namespace {
+
+/// More than a simulation can hold at once; whoever tells of more is not believed.
+constexpr std::uint32_t kMostDepths = 32;
+
+}  // namespace
 
 void HandOffFeed::queueUntold() {
     put(EventKind::ActorEnd, kRendererQueue, kNoObject, queue_frame_, 0, 0, 0, kUntold);
@@ -51,6 +58,8 @@ void HandOffFeed::simulationMade(std::uint32_t slots) {
         ledger_.declareSync(kFramesDone, SyncKind::Timeline, "frames that drew", 0, 0);
     }
     ledger_.declareSync(kSimulation, SyncKind::Timeline, "simulation", 0, 0);
+    ledger_.declareSync(kDepthsFree, SyncKind::Timeline, "captured depths that are free", 0, 0);
+    depths_.clear();
     for (std::uint32_t slot = 0; slot < slots; ++slot) {
         // Buffers of both queues: nobody owns them, and they have no layout.
         ledger_.declareResource(slotResource(slot), fmt::format("output slot {}", slot), 0, kNoActor);
@@ -58,9 +67,48 @@ void HandOffFeed::simulationMade(std::uint32_t slots) {
     slots_ = slots;
 }
 
+bool HandOffFeed::depthTold(const SluiceTraceEvent& event) {
+    const std::string_view name = event.name == nullptr ? std::string_view() : event.name;
+    if (slots_ == 0 || !name.starts_with(kCapturedDepth)) {
+        return false;
+    }
+    std::uint32_t number = 0;
+    const std::size_t at = std::min(name.size(), kCapturedDepth.size() + 1);
+    if (std::from_chars(name.data() + at, name.data() + name.size(), number).ec != std::errc{} ||
+        number >= kMostDepths) {
+        return true;
+    }
+    while (number >= depths_.size()) {
+        // A buffer of both queues, as the output slots are.
+        if (!blind_) {
+            ledger_.declareResource(depthResource(static_cast<std::uint32_t>(depths_.size())),
+                                    fmt::format("captured depth {}", depths_.size()), 0, kNoActor);
+        }
+        depths_.push_back(0);
+    }
+    const bool simulation = event.track == SLUICE_TRACK_SIMULATION;
+    const bool acquire = event.kind == SLUICE_TRACE_ACQUIRE;
+    const auto tell = [&](EventKind kind, ActorId actor, ObjectId object, std::uint64_t value) {
+        put(kind, actor, object, event.frame, value, event.begin_ns);
+    };
+    if (simulation) {
+        depths_[number] = acquire ? event.value : depths_[number];
+        // Also as it lets go: until then every step has read it.
+        tell(EventKind::Read, kSimulationQueue, depthResource(number), depths_[number]);
+        if (!acquire) {
+            tell(EventKind::Signal, kSimulationQueue, kDepthsFree, event.value);
+        }
+    } else if (!acquire) {
+        tell(EventKind::Write, kRendererQueue, depthResource(number), event.value);
+    } else if (event.value != 0) {
+        tell(EventKind::Wait, kRendererQueue, kDepthsFree, event.value);
+    }
+    return true;
+}
+
 void HandOffFeed::simulationTold(const SluiceTraceEvent& event) {
     const std::lock_guard lock(mutex_);
-    if (slots_ == 0) {
+    if (slots_ == 0 || depthTold(event)) {
         return;
     }
     switch (event.kind) {
@@ -99,6 +147,9 @@ void HandOffFeed::trace(const SluiceTraceEvent& event) {
     };
     heard_ = true;
     queueBegins(event.frame, event.begin_ns);
+    if (depthTold(event)) {
+        return;
+    }
     switch (event.kind) {
         case SLUICE_TRACE_WAIT: {
             if (event.direction == SLUICE_SIMULATION_TO_RENDERER) {

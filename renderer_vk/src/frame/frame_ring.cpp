@@ -258,7 +258,7 @@ void FrameRing::finishOne(Slot& slot) {
     if (tracer_.on()) {
         emit(slot, times);
     }
-    slot.simulated.captured.reset();
+    slot.simulated.captured = {};
 }
 
 void FrameRing::emit(const Slot& slot, const FrameTimes& times) const {
@@ -282,6 +282,13 @@ void FrameRing::emit(const Slot& slot, const FrameTimes& times) const {
         tracer_.emit({SLUICE_TRACE_ACQUIRE, kQueue, "SIMULATED_FLUID", begin, 0, frame, fluid.value,
                       std::uint64_t{fluid.particles.count} * 12, SLUICE_SIMULATION_TO_RENDERER});
     }
+    const DepthRoom& captured = slot.simulated.captured;
+    const std::string depth = captured.buffer != nullptr ? captured.buffer->name() : "";
+    if (captured.buffer != nullptr) {
+        // The host's thread has seen that it is free, before it submitted this.
+        tracer_.emit({SLUICE_TRACE_ACQUIRE, kQueue, depth.c_str(), begin, 0, frame, captured.freed,
+                      captured.buffer->memory.size(), SLUICE_RENDERER_TO_HOST});
+    }
     for (std::size_t role = 0; role < slot.image_bytes.size(); ++role) {
         if (slot.image_bytes[role] != 0) {
             tracer_.emit({SLUICE_TRACE_ACQUIRE, kQueue, kNames[role], begin, 0, frame, slot.wait_value,
@@ -293,8 +300,8 @@ void FrameRing::emit(const Slot& slot, const FrameTimes& times) const {
         tracer_.emit({SLUICE_TRACE_PASS, kQueue, label.name, times.passes[i].begin_ns, times.passes[i].duration_ns,
                       frame, 0, label.bytes, SLUICE_HOST_TO_RENDERER});
     }
-    if (const auto& captured = slot.simulated.captured; captured != nullptr) {
-        tracer_.emit({SLUICE_TRACE_RELEASE, kQueue, "CAPTURED_DEPTH", end, 0, frame, frame, captured->size(),
+    if (captured.buffer != nullptr) {
+        tracer_.emit({SLUICE_TRACE_RELEASE, kQueue, depth.c_str(), end, 0, frame, frame, captured.buffer->memory.size(),
                       SLUICE_RENDERER_TO_HOST});
     }
     for (std::size_t role = 0; role < slot.image_bytes.size(); ++role) {

@@ -24,7 +24,6 @@ constexpr std::uint64_t kLookNs = 50'000'000;
 constexpr double kLeastPart = 1.0 / 1024.0;
 constexpr std::uint64_t kBytesOfParticle = 6 * sizeof(float);
 constexpr const char* kFluidName = "SIMULATED_FLUID";
-constexpr const char* kDepthName = "CAPTURED_DEPTH";
 
 std::vector<BodyState> startsOf(const std::vector<Body>& bodies) {
     std::vector<BodyState> starts(bodies.size());
@@ -221,17 +220,16 @@ std::string LiveSimulation::late() const {
                        seconds);
 }
 
-Result<std::shared_ptr<const Buffer>> LiveSimulation::captureRoom(const Device& device, std::uint64_t value,
-                                                                  VkDeviceSize bytes) {
+Result<DepthRoom> LiveSimulation::captureRoom(const Device& device, std::uint64_t value, VkDeviceSize bytes) {
     const std::lock_guard lock(mutex_);
     if (depth_scale_ == 0 || stats_.failed != 0 || seen_.known(value)) {
-        return std::shared_ptr<const Buffer>{};
+        return DepthRoom{};
     }
     return seen_.room(device, bytes);
 }
 
 void LiveSimulation::drawn(std::uint64_t value, std::uint64_t signal_value,
-                           const std::shared_ptr<const Buffer>& captured) {
+                           const std::shared_ptr<const DepthBuffer>& captured) {
     const std::lock_guard lock(mutex_);
     seen_.drawn(value, {captured, signal_value});
     changed_.notify_all();
@@ -402,19 +400,32 @@ Status LiveSimulation::look(std::uint64_t value) {
         changed_.wait(lock, [&] { return stop_ || seen_.known(source); });
         depth = seen_.at(source);
     }
-    if (depth.buffer == nullptr || depth.buffer == seen_by_) {
+    if (depth.buffer == nullptr || depth.buffer == seen_by_.buffer) {
         return {};
     }
     if (Status status = waitForFrame(depth.signal, value, "depth captured"); !status || stopping()) {
         return status;
     }
-    solver_->useDepthField(depth.buffer->buffer());
-    tracer_.emit({SLUICE_TRACE_ACQUIRE, SLUICE_TRACK_SIMULATION, kDepthName, tracer_.now(), 0, value, depth.signal,
-                  depth.buffer->size(), SLUICE_RENDERER_TO_HOST});
-    // Whoever looks for an idle buffer holds the lock, too.
-    const std::lock_guard lock(mutex_);
-    seen_by_ = std::move(depth.buffer);
+    takeDepth(std::move(depth), value);
     return {};
+}
+
+void LiveSimulation::takeDepth(SeenDepth depth, std::uint64_t value) {
+    const auto tell = [&](SluiceTraceKind kind, const DepthBuffer& buffer, std::uint64_t number) {
+        tracer_.emit({kind, SLUICE_TRACK_SIMULATION, buffer.name().c_str(), tracer_.now(), 0, value, number,
+                      buffer.memory.size(), SLUICE_RENDERER_TO_HOST});
+    };
+    solver_->useDepthField(depth.buffer->memory.buffer());
+    tell(SLUICE_TRACE_ACQUIRE, *depth.buffer, depth.signal);
+    if (seen_by_.buffer != nullptr) {
+        // Before anybody can find it idle, for which he has to hold the lock.
+        tell(SLUICE_TRACE_RELEASE, *seen_by_.buffer, ++depths_freed_);
+    }
+    const std::lock_guard lock(mutex_);
+    if (seen_by_.buffer != nullptr) {
+        seen_.letGo(*seen_by_.buffer, depths_freed_);
+    }
+    seen_by_ = std::move(depth);
 }
 
 Status LiveSimulation::waitForFrames(std::uint64_t value) {
@@ -427,6 +438,9 @@ Status LiveSimulation::waitForFrames(std::uint64_t value) {
 }
 
 Status LiveSimulation::waitForFrame(std::uint64_t reader, std::uint64_t value, const char* why) {
+    if (reader <= waited_) {
+        return {};  // as it has for a later one, whose depth it reads
+    }
     {
         const std::lock_guard lock(mutex_);
         held_by_ = reader;
@@ -445,6 +459,7 @@ Status LiveSimulation::waitForFrame(std::uint64_t reader, std::uint64_t value, c
         return Error{result, "simulation", fmt::format("the wait for frame {} failed", reader),
                      "destroy the renderer and create it again"};
     }
+    waited_ = result == SLUICE_OK ? reader : waited_;
     tracer_.emit({SLUICE_TRACE_WAIT, SLUICE_TRACK_SIMULATION, why, began, tracer_.now() - began, value, reader, 0,
                   SLUICE_RENDERER_TO_HOST});
     return {};

@@ -63,7 +63,7 @@ struct SimulatedFluid {
     VkSemaphore semaphore = VK_NULL_HANDLE;
     bool waits = true;  ///< false: a fault of tests
     /// What the frame captures its depth into; none: it does not.
-    std::shared_ptr<const Buffer> captured{};
+    DepthRoom captured{};
 };
 
 /// The solver looks at every step's outcome before the next one, so it needs a thread; that thread is the only one that
@@ -94,14 +94,15 @@ class LiveSimulation {
     [[nodiscard]] Result<SimulatedFluid> fluid(std::uint64_t value, bool skip_wait);
     /// Where the first frame that draws `value` captures its depth, in so many bytes of `device`; none for another, and
     /// where the fluid does not collide with it.
-    [[nodiscard]] Result<std::shared_ptr<const Buffer>> captureRoom(const Device& device, std::uint64_t value,
-                                                                    VkDeviceSize bytes);
+    [[nodiscard]] Result<DepthRoom> captureRoom(const Device& device, std::uint64_t value, VkDeviceSize bytes);
     [[nodiscard]] std::uint32_t depthScale() const { return depth_scale_; }
     [[nodiscard]] float depthThickness() const { return depth_thickness_; }
     /// A frame that signals `signal_value` of the renderer's timeline draws `value`, and has captured into that.
-    void drawn(std::uint64_t value, std::uint64_t signal_value, const std::shared_ptr<const Buffer>& captured);
+    void drawn(std::uint64_t value, std::uint64_t signal_value, const std::shared_ptr<const DepthBuffer>& captured);
     /// The most that there will ever be.
     [[nodiscard]] std::uint32_t particles() const { return most_particles_; }
+    /// Where the values lie; what a slot holds is to be looked at while no later value may be written into it.
+    [[nodiscard]] const OutputSlots& slots() const { return *slots_; }
     /// Its particles are ellipsoids.
     [[nodiscard]] bool shaped() const { return shaped_; }
 
@@ -138,6 +139,7 @@ class LiveSimulation {
     [[nodiscard]] Status waitForFrame(std::uint64_t signal, std::uint64_t value, const char* why);
     [[nodiscard]] Status look(std::uint64_t value);
     [[nodiscard]] std::string late() const;
+    void takeDepth(SeenDepth depth, std::uint64_t value);
     void driveBodies();
     [[nodiscard]] Status publish(std::uint64_t value);
     void fail(std::uint64_t value, const Error& error);
@@ -157,9 +159,11 @@ class LiveSimulation {
     std::unique_ptr<OutputSlots> slots_;
     std::uint32_t depth_scale_;
     float depth_thickness_;
-    std::shared_ptr<const Buffer> seen_by_;  ///< what the solver reads; the thread's
+    SeenDepth seen_by_;               ///< what the solver reads; the thread's
+    std::uint64_t depths_freed_ = 0;  ///< how often it has let go of one; likewise
 
     double owed_ = 0.0;                   ///< s, asked for and too little for a step; the thread's
+    std::uint64_t waited_ = 0;            ///< last frame that it has waited for; likewise
     std::vector<BodyTarget> targets_;     ///< likewise of values without a step
     std::vector<BodyTarget> asked_;       ///< by setBody() since the last simulate(); the renderer's thread's
     std::unique_ptr<FlowSettings> flow_;  ///< by setFlow(), likewise

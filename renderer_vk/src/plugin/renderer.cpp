@@ -287,10 +287,10 @@ Status SluiceRenderer::recordAndSubmit(const SluiceFrame& frame) {
     if (!fluid) {
         return fluid.error();
     }
-    const std::shared_ptr<const Buffer>& captured = fluid.value().simulated.captured;
+    const std::shared_ptr<const DepthBuffer>& captured = fluid.value().simulated.captured.buffer;
     DepthCapture capture;
     if (captured != nullptr) {
-        capture = {captured->buffer(), simulation_->depthScale(), simulation_->depthThickness()};
+        capture = {captured->memory.buffer(), simulation_->depthScale(), simulation_->depthThickness()};
     }
     const PassRecorder record = [&](VkCommandBuffer commands, const ParticleBuffers& particles, PassTimer& timer) {
         return recorder_->record(commands, frame, *plan_, targets, particles, timer, capture);

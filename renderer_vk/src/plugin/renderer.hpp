@@ -40,6 +40,7 @@ struct SluiceRenderer {
     [[nodiscard]] sluice::Status resetSimulation(sluice::vk::LiveStart start);
     /// Null without one.
     [[nodiscard]] const sluice::vk::LiveSimulation* simulation() const { return simulation_.get(); }
+    [[nodiscard]] const sluice::vk::Device& device() const { return *device_; }
     /// Everything about the frame is checked here.
     [[nodiscard]] sluice::Status submitFrame(const SluiceFrame& frame);
     [[nodiscard]] SluiceResult poll(std::uint64_t frame, SluiceFrameStats& stats);

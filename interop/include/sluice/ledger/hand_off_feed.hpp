@@ -11,7 +11,8 @@
 //
 // A simulation inside the renderer is an actor of its own, that signals its timeline and writes output slots. It waits
 // for frames by the renderer's timeline; here that is a counter of its own, since the images' one makes only listed
-// images visible where OpenGL waits for it.
+// images visible where OpenGL waits for it. It reads the depths that frames capture for it, each buffer of them a
+// resource of its own; that such a buffer is free again the host's thread sees under a mutex, which is a counter, too.
 //
 // Submissions, GL fences, calls of glFinish and of the renderer until it is idle are counted, and each of the counters
 // is a timeline: that says as much as an object for each, and the ledger forgets what is past.
@@ -22,6 +23,7 @@
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sluice/ledger/live.hpp"
 #include "sluice/plugin.h"
@@ -30,7 +32,7 @@ namespace sluice::ledger {
 
 inline constexpr ActorId kHostThread = 0, kGlStream = 1, kRendererQueue = 2, kBridgeThread = 3, kSimulationQueue = 4;
 inline constexpr ObjectId kHostToRenderer = 0, kRendererToHost = 1, kSubmissions = 2, kGlFences = 3, kGlFinishes = 4,
-                          kQueueDrains = 5, kPromises = 6, kSimulation = 7, kFramesDone = 8;
+                          kQueueDrains = 5, kPromises = 6, kSimulation = 7, kFramesDone = 8, kDepthsFree = 9;
 
 /// The resource that stands for a shared image.
 [[nodiscard]] constexpr ObjectId resourceOf(std::uint32_t role, std::uint32_t image_set) {
@@ -40,6 +42,11 @@ inline constexpr ObjectId kHostToRenderer = 0, kRendererToHost = 1, kSubmissions
 /// The resource that stands for an output slot of the simulation.
 [[nodiscard]] constexpr ObjectId slotResource(std::uint64_t slot) {
     return resourceOf(0, SLUICE_MAX_IMAGE_SETS) + static_cast<ObjectId>(slot);
+}
+
+/// The resource that stands for a buffer that depths are captured into.
+[[nodiscard]] constexpr ObjectId depthResource(std::uint32_t number) {
+    return slotResource(SLUICE_MAX_FRAMES_IN_FLIGHT + 1) + number;
 }
 
 /// Any thread. `begin_ns` is CLOCK_MONOTONIC; the other events are given the time of the call.
@@ -119,6 +126,8 @@ class HandOffFeed {
     void queueBegins(std::uint64_t frame, std::uint64_t begin_ns);
     void queueTouches(std::uint64_t frame, std::uint64_t begin_ns);
     void simulationTold(const SluiceTraceEvent& event);
+    /// Whether it is of a captured depth: then all is told that there is to tell.
+    bool depthTold(const SluiceTraceEvent& event);
 
     /// What is remembered of a frame in flight, for the times of events that are told later.
     struct FrameTimes {
@@ -145,6 +154,7 @@ class HandOffFeed {
     std::uint64_t unheard_ = 0;          ///< submissions since the queue's last signal
     std::uint64_t taken_ = 0;            ///< submissions that did not fail
     std::uint32_t slots_ = 0;            ///< of the simulation, 0: there is none
+    std::vector<std::uint64_t> depths_;  ///< by buffer that depths are captured into: the frame that the fluid reads
     bool heard_ = false;                 ///< the queue was, at least once
     bool blind_ = false;
 };
