@@ -162,7 +162,8 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulat
                      fmt::format("expected none while frames are drawn, found {}", setup.fluids.size()),
                      "simulate into files first (sluice simulate SCENE -o FILE) and give them with --particles"};
     }
-    if (Status status = simulator::addMeshes(setup, meshes); !status) {
+    const bool by_depth = scene.simulation.collide == scene::kCollideDepth;
+    if (Status status = by_depth ? Status{} : simulator::addMeshes(setup, meshes); !status) {
         return status.error();
     }
     Result<simulator::Particles> start = wholeStart(scene.simulation, setup, request.seed);
@@ -174,7 +175,9 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulat
     live.solids = solidsOf(setup);
     addSources(live, setup);
     addBodies(live, setup);
-    addMeshes(live, meshes);
+    if (!by_depth) {
+        addMeshes(live, meshes);
+    }
     live.frame_s = 1.0 / double{scene.simulation.frames_per_second};
     SluiceSimulation& s = live.settings;
     s.struct_size = sizeof(s);
@@ -201,6 +204,11 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulat
     s.smoothing = scene.simulation.anisotropy.smoothing;
     s.lonely = scene.simulation.anisotropy.lonely;
     s.longest_step = std::min(1.0, live.frame_s / scene.simulation.steps_per_frame);
+    if (by_depth) {
+        s.depth_scale = scene.simulation.depth.scale;
+        s.depth_lag = 1;  // the picture before, whatever is in flight: the pictures are the same then
+        s.depth_thickness = scene.simulation.depth.thickness;
+    }
     return live;
 }
 

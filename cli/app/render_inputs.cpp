@@ -22,6 +22,14 @@ Status startLive(RenderInputs& inputs, const RenderOptions& options, const std::
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "--frames",
                      "expected frames from 1, found 0: the scene simulates its fluid", "frame 1 is the start"};
     }
+    if (inputs.scene.simulation.collide == scene::kCollideDepth && inputs.frames.first != 1) {
+        return Error{
+            SLUICE_ERROR_INVALID_ARGUMENT, "--frames",
+            fmt::format("expected frames from 1, found {}: the fluid collides with what pictures show, from the "
+                        "first on",
+                        inputs.frames.first),
+            "begin with frame 1, or simulate into files first"};
+    }
     Result<LiveFluid> live =
         liveFluid(inputs.scene, meshes, {options.seed, options.frames_in_flight, inputs.frames.last});
     if (!live) {

@@ -91,9 +91,13 @@ Status writeFiles(Run& run, const FrameResult& result, std::int64_t frame) {
         if (!layers) {
             return layers.error();
         }
-        const scene::CameraPath& camera = run.inputs.scene.camera;
-        if (Status status = writeExr(layers.value(), layeredImage(result.layers, camera.near_plane, camera.far_plane));
-            !status) {
+        const SluiceCamera camera = scene::cameraAt(run.inputs.scene, frame, run.inputs.size);
+        LayeredImage image = layeredImage(result.layers, camera.near_plane, camera.far_plane);
+        ImageCamera& lens = image.camera.emplace();
+        std::copy_n(&camera.view[0], 16, lens.view.begin());
+        std::copy_n(&camera.projection[0], 16, lens.projection.begin());
+        lens.near_plane = camera.near_plane;
+        if (Status status = writeExr(layers.value(), image); !status) {
             return status;
         }
         run.summary.files.push_back(layers.value().string());

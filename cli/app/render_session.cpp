@@ -294,6 +294,9 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
         input.outputs = layerOutputs(options);
         input.draw_began_ns = draw_began;
         input.simulation = inputs.live ? static_cast<std::uint64_t>(frame) : 0;
+        if (inputs.live && inputs.live->settings.depth_scale != 0) {
+            input.flags |= SLUICE_FRAME_CAPTURE_DEPTH;
+        }
         Status status;
         result.submit_ms = timed([&] { status = session.fluid->submit(session.screen, input); });
         if (status) {

@@ -6,6 +6,7 @@
 
 #include "app/body_files.hpp"
 #include "app/commands.hpp"
+#include "app/depth_files.hpp"
 #include "app/file_roles.hpp"
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
@@ -24,6 +25,7 @@ namespace {
 /// A run in progress.
 struct Run {
     const SimulateOptions& options;
+    const scene::Scene& scene;
     const scene::Simulation& settings;
     const simulator::Setup& setup;
     scene::FrameRange frames;
@@ -42,6 +44,10 @@ Status checkRoles(const SimulateOptions& options, const scene::Simulation& setti
     }
     if (!settings.start.empty()) {
         roles.add("the file of the start", settings.start);
+    }
+    const auto depths = depthFiles(settings, frames.last);
+    for (const std::filesystem::path& path : depths ? depths.value() : std::vector<std::filesystem::path>{}) {
+        roles.add("the depth's file", path);
     }
     for (std::int64_t frame = frames.first; frame <= frames.last; ++frame) {
         const Result<std::filesystem::path> path = outputPath(options.output, frame);
@@ -81,8 +87,20 @@ Status checkRequest(const SimulateOptions& options, const scene::Simulation& set
     return checkRoles(options, settings, frames);
 }
 
-/// The fluid one frame further.
-Status goOn(Run& run) {
+/// What the fluid meets on its way to `number`: what the picture before shows.
+Status look(Run& run, std::int64_t number) {
+    if (run.setup.seen == nullptr || !depthMoves(run.settings) || number == 2) {
+        return {};
+    }
+    const auto seen = loadDepth(run.scene, number - 1);
+    return seen ? run.simulator.setDepth(*seen.value()) : Status{seen.error()};
+}
+
+/// The fluid one frame further, to that number.
+Status goOn(Run& run, std::int64_t number) {
+    if (Status status = look(run, number); !status) {
+        return status;
+    }
     const auto begin = std::chrono::steady_clock::now();
     const double frame = 1.0 / double{run.settings.frames_per_second};
     const Result<simulator::Advance> done =
@@ -147,7 +165,7 @@ int runFrames(Run& run) {
             return kExitInterrupted;
         }
         progress.update(static_cast<std::uint64_t>(frame - 1), fmt::format("frame {}", frame));
-        if (const Status status = frame > 1 ? goOn(run) : Status{}; !status) {
+        if (const Status status = frame > 1 ? goOn(run, frame) : Status{}; !status) {
             return stopped(run, status.error(), kExitNoFluid);
         }
         Result<simulator::Particles> particles = run.simulator.read();
@@ -164,6 +182,30 @@ int runFrames(Run& run) {
     }
     run.summary.validation_messages = run.simulator.validationMessages();
     return run.summary.validation_messages > 0 ? kExitNoFluid : kExitOk;
+}
+
+/// With what files hold: meshes, or what is seen of them.
+Result<simulator::Setup> wholeSetup(const scene::Scene& scene, std::int64_t last, const std::string& name) {
+    simulator::Setup setup = simulationSetup(scene);
+    const scene::Simulation& settings = scene.simulation;
+    if (settings.collide == scene::kCollideDepth) {
+        auto seen = firstDepth(scene, last);
+        if (!seen) {
+            Error error = seen.error();
+            error.thing = settings.depth.path.empty() ? name + ": " + error.thing : error.thing;
+            return error;
+        }
+        setup.seen = std::move(seen).value();
+        return setup;
+    }
+    const Result<std::vector<simulator::Mesh>> meshes = readMeshes(settings);
+    if (!meshes) {
+        return meshes.error();
+    }
+    if (Status status = simulator::addMeshes(setup, meshes.value()); !status) {
+        return status.error();
+    }
+    return setup;
 }
 
 int finish(Run& run, int code) {
@@ -193,16 +235,12 @@ int simulate(const SimulateOptions& options) {
         logError(status.error());
         return kExitUsage;
     }
-    simulator::Setup setup = simulationSetup(scene.value());
-    const Result<std::vector<simulator::Mesh>> meshes = readMeshes(settings);
-    if (!meshes) {
-        logError(meshes.error());
-        return kExitBadInput;
+    Result<simulator::Setup> whole = wholeSetup(scene.value(), frames.last, options.scene);
+    if (!whole) {
+        logError(whole.error());
+        return whole.error().code == SLUICE_ERROR_INVALID_ARGUMENT ? kExitBadInput : kExitInternal;
     }
-    if (const Status status = simulator::addMeshes(setup, meshes.value()); !status) {
-        logError(status.error());
-        return kExitBadInput;
-    }
+    simulator::Setup& setup = whole.value();
     Result<simulator::Particles> start = wholeStart(settings, setup, options.seed);
     if (!start) {
         Error error = start.error();
@@ -221,7 +259,7 @@ int simulate(const SimulateOptions& options) {
         logError(made.error());
         return made.error().code == SLUICE_ERROR_INVALID_ARGUMENT ? kExitBadInput : kExitNoFluid;
     }
-    Run run{options, settings, setup, frames, std::move(made).value(), folders, {}};
+    Run run{options, scene.value(), settings, setup, frames, std::move(made).value(), folders, {}};
     run.summary.scene = options.scene;
     run.summary.device = run.simulator.device();
     run.summary.first = frames.first;

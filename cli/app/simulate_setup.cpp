@@ -123,7 +123,7 @@ simulator::Setup simulationSetup(const scene::Scene& scene) {
         setup.planes.push_back({plane.normal, plane.through});
     }
     addSources(setup, s);
-    if (s.collide_with_engine != 0) {
+    if (s.collide_with_engine != 0 && s.collide == scene::kCollideSolids) {
         addEngine(setup, scene.engine);
     }
     return setup;

@@ -13,7 +13,8 @@ namespace sluice::cli {
 /// At most this many particles: the solver's lists for more would not fit the device's buffers.
 inline constexpr std::uint64_t kMostSimulated = 4'000'000;
 
-/// The solver's numbers and solids: those of the scene's simulation and, if it says so, those of its engine.
+/// The solver's numbers and solids: those of the scene's simulation and, if it says so, those of its engine. What is
+/// seen of the engine instead is not in it.
 [[nodiscard]] simulator::Setup simulationSetup(const scene::Scene& scene);
 
 /// A lattice of spacing 2r in every box of fluid, each particle moved by up to `jitter` radii along each axis by

@@ -2,8 +2,10 @@
 // OpenEXR files of many named channels.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,12 +20,20 @@ struct Channel {
     std::vector<float> values;
 };
 
+/// Whose picture it is: column-major, as SluiceCamera has it.
+struct ImageCamera {
+    std::array<float, 16> view{}, projection{};
+    float near_plane = 0.0F;  ///< m
+};
+
 struct LayeredImage {
     std::uint32_t width = 0, height = 0;
     std::vector<Channel> channels;
+    std::optional<ImageCamera> camera{};
 };
 
-/// One part, ZIP-compressed scan lines. Whole or not at all.
+/// One part, ZIP-compressed scan lines; the camera as attributes "worldToCamera", "sluice:projection" and
+/// "sluice:near". Whole or not at all.
 [[nodiscard]] Status writeExr(const std::filesystem::path& path, const LayeredImage& image);
 
 }  // namespace sluice::cli

@@ -73,4 +73,9 @@ Result<Environment> loadEnvironment(const std::filesystem::path& path) {
     return functions() ? functions().value()->load_environment(path) : Result<Environment>{functions().error()};
 }
 
+Result<DepthLayer> readDepthLayer(const std::filesystem::path& path, bool contents) {
+    return functions() ? functions().value()->read_depth_layer(path, contents)
+                       : Result<DepthLayer>{functions().error()};
+}
+
 }  // namespace sluice::cli

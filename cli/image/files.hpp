@@ -7,8 +7,8 @@
 namespace sluice::cli {
 
 /// Loads the module, once for the process, which keeps it. The error names every place that was looked at, and what the
-/// loader said. Any thread. writePng, writeExr and loadEnvironment ask it themselves; who renders for an hour first
-/// asks before.
+/// loader said. Any thread. writePng, writeExr, loadEnvironment and readDepthLayer ask it themselves; who renders
+/// for an hour first asks before.
 [[nodiscard]] Status imageFilesPossible();
 
 }  // namespace sluice::cli

@@ -22,6 +22,7 @@ inline constexpr std::array<Choice, 5> kViews{{{"fluid", SLUICE_VIEW_FLUID},
                                                {"thickness", SLUICE_VIEW_THICKNESS},
                                                {"echo", SLUICE_VIEW_ECHO}}};
 
+inline constexpr std::array<Choice, 2> kCollides{{{"solids", kCollideSolids}, {"depth", kCollideDepth}}};
 inline constexpr std::array<Choice, 2> kEmitterShapes{{{"disc", kEmitterDisc}, {"box", kEmitterBox}}};
 inline constexpr std::array<Choice, 2> kDrainShapes{{{"sphere", kDrainSphere}, {"box", kDrainBox}}};
 inline constexpr std::array<Choice, 3> kBodyShapes{
@@ -191,6 +192,12 @@ void visitSimulation(Visitor& v, Simulation& s) {
     v.number("jitter", s.jitter, Range{0.0, 0.5});
     v.flag("collide_with_engine", s.collide_with_engine);
     v.text("start", s.start);
+    v.choice("collide", s.collide, kCollides);
+    v.object("depth", [&s](auto& d) {
+        d.text("path", s.depth.path);
+        d.number("thickness", s.depth.thickness, kLength);
+        d.integer("scale", s.depth.scale, 1, 8);
+    });
     v.list("fluid", s.fluid, [](auto& o, FluidBox& box) {
         o.numbers("low", box.low, kAnyLength);
         o.numbers("high", box.high, kAnyLength);

@@ -33,6 +33,7 @@ Result<Scene> loadScene(const std::filesystem::path& path) {
         resolve(scene.value().particles.path, path.parent_path());
         resolve(scene.value().environment, path.parent_path());
         resolve(scene.value().simulation.start, path.parent_path());
+        resolve(scene.value().simulation.depth.path, path.parent_path());
         for (SolidMesh& mesh : scene.value().simulation.meshes) {
             resolve(mesh.path, path.parent_path());
         }

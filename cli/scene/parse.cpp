@@ -166,7 +166,23 @@ void checkFluids(ObjectReader& reader, const Simulation& s) {
     }
 }
 
+/// A body would go through what is only seen, and a slab that is thin does not hold.
+void checkDepth(ObjectReader& reader, const Simulation& s) {
+    if (s.collide != kCollideDepth) {
+        return;
+    }
+    if (!s.bodies.empty()) {
+        reader.fail("simulation/bodies", "none where \"collide\" is \"depth\": bodies do not meet what is seen",
+                    fmt::format("{}", s.bodies.size()));
+    }
+    if (const float least = 4.0F * s.radius; s.depth.thickness != 0.0F && s.depth.thickness < least) {
+        reader.fail("simulation/depth/thickness", fmt::format("0, or a number >= {}, which is 4 radii", least),
+                    fmt::format("{}", s.depth.thickness));
+    }
+}
+
 void checkSimulation(ObjectReader& reader, const Simulation& s) {
+    checkDepth(reader, s);
     checkFluids(reader, s);
     checkBox(reader, "simulation/domain", s.low, s.high);
     checkSources(reader, s);

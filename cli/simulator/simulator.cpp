@@ -70,6 +70,7 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
     }
     s.sources.most_particles = setup.most_particles;
     s.meshes = setup.meshes;
+    s.seen = setup.seen;
     return s;
 }
 
@@ -86,6 +87,21 @@ Status addMeshes(Setup& setup, std::span<const Mesh> meshes) {
     }
     setup.meshes = std::make_shared<const vk::DistanceGrid>(std::move(grid).value());
     return {};
+}
+
+Result<std::shared_ptr<const vk::DepthField>> seenDepth(const SeenImage& image, const std::vector<float>& depth,
+                                                        std::uint32_t scale, float thickness, float radius) {
+    const vk::DepthView camera{image.view, image.projection, image.near_plane};
+    if (const Status status = vk::checkDepthView(camera); !status) {
+        return status.error();
+    }
+    auto field = std::make_shared<const vk::DepthField>(
+        vk::depthField(camera, image.width, image.height, scale,
+                       thickness > 0.0F ? thickness : vk::kThicknessInRadii * radius, depth));
+    if (const Status status = vk::checkDepthField(*field, radius); !status) {
+        return status.error();
+    }
+    return std::shared_ptr<const vk::DepthField>(std::move(field));
 }
 
 double mostParticles(const Setup& setup, std::size_t at_start, double seconds) {
@@ -154,6 +170,10 @@ Result<Simulator> Simulator::create(const Setup& setup, bool validation) {
     }
     state->solver = std::move(solver).value();
     return Simulator(std::move(state));
+}
+
+Status Simulator::setDepth(const vk::DepthField& seen) {
+    return state_->solver->setDepthField(seen);
 }
 
 Status Simulator::setParticles(const Particles& particles) {

@@ -13,8 +13,9 @@
 #include "sluice/result.hpp"
 
 namespace sluice::vk {
+struct DepthField;
 struct DistanceGrid;
-}
+}  // namespace sluice::vk
 
 namespace sluice::simulator {
 
@@ -97,6 +98,7 @@ struct Setup {
     std::vector<Box> boxes;
     std::vector<Plane> planes;
     std::shared_ptr<const vk::DistanceGrid> meshes;  ///< of addMeshes; may be none
+    std::shared_ptr<const vk::DepthField> seen;      ///< of seenDepth; may be none
     std::vector<Emitter> emitters;
     std::vector<Drain> drains;
     std::vector<ForceField> fields;
@@ -125,12 +127,25 @@ struct Advance {
 /// closed surface.
 [[nodiscard]] Status addMeshes(Setup& setup, std::span<const Mesh> meshes);
 
+/// Of which camera, column-major, and how large.
+struct SeenImage {
+    std::array<float, 16> view, projection;
+    float near_plane;
+    std::uint32_t width, height;
+};
+/// What an image of depths, bottom row first, is as a solid: the nearest of each `scale` times `scale` of them, on a
+/// slab so thick (0: eight radii). Refused, with the reason, if it cannot be one.
+[[nodiscard]] Result<std::shared_ptr<const vk::DepthField>> seenDepth(const SeenImage& image,
+                                                                      const std::vector<float>& depth,
+                                                                      std::uint32_t scale, float thickness,
+                                                                      float radius);
+
 /// The most particles that a fluid of `at_start` particles has within so many seconds: with every birth of its
 /// emitters.
 [[nodiscard]] double mostParticles(const Setup& setup, std::size_t at_start, double seconds);
 
 /// Distance from each position (triples) to the nearest solid, body or face of the domain, metres; negative where no
-/// fluid may be.
+/// fluid may be. What is seen is none of these: it moves out by itself who begins in it.
 [[nodiscard]] std::vector<double> clearances(const Setup& setup, const std::vector<float>& positions);
 
 /// The device and the solver on it. Errors of create: INVALID_ARGUMENT when the setup is wrong, else the device's.
@@ -141,6 +156,8 @@ class Simulator {
     Simulator& operator=(Simulator&&) noexcept;
     ~Simulator();
 
+    /// In place of the setup's, which there must have been.
+    [[nodiscard]] Status setDepth(const vk::DepthField& seen);
     [[nodiscard]] Status setParticles(const Particles& particles);
     /// On an error the particles are those of the last good step.
     [[nodiscard]] Result<Advance> advance(double seconds, double longest);

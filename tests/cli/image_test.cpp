@@ -7,6 +7,7 @@
 
 #include "image/atomic_file.hpp"
 #include "image/colour.hpp"
+#include "image/depth_layer.hpp"
 #include "image/environment.hpp"
 #include "image/exr.hpp"
 #include "image/layers.hpp"
@@ -74,6 +75,45 @@ TEST(Exr, KeepsNamesTypesAndInfinity) {
     EXPECT_EQ(values[static_cast<std::size_t>(z)], 1.2345678F);
     EXPECT_EQ(values[static_cast<std::size_t>(2 + z)], inf);
     std::filesystem::remove(path);
+}
+
+TEST(DepthLayer, IsReadWithTheCameraThatTheFileHasAndWhatItLacksIsNamed) {
+    const float inf = std::numeric_limits<float>::infinity();
+    LayeredImage image{2, 2, {{"A", true, {1, 1, 1, 1}}, {"host.Z", false, {1, 2, 3, inf}}}};
+    ImageCamera& camera = image.camera.emplace();
+    for (std::size_t i = 0; i < 16; ++i) {
+        camera.view.at(i) = static_cast<float>(i);
+        camera.projection.at(i) = -static_cast<float>(i);
+    }
+    camera.near_plane = 0.25F;
+    const auto path = temporary("sluice-depth-test.exr");
+    ASSERT_TRUE(writeExr(path, image).ok());
+    const auto layer = readDepthLayer(path);
+    ASSERT_TRUE(layer) << layer.error().message();
+    EXPECT_EQ(layer.value().width, 2U);
+    EXPECT_EQ(layer.value().depth, (std::vector<float>{3, inf, 1, 2})) << "bottom row first";
+    ASSERT_TRUE(layer.value().camera);
+    EXPECT_EQ(layer.value().camera->view, camera.view);
+    EXPECT_EQ(layer.value().camera->projection, camera.projection);
+    EXPECT_EQ(layer.value().camera->near_plane, 0.25F);
+    EXPECT_TRUE(readDepthLayer(path, false).value().depth.empty());
+    const auto refusal = [&](const LayeredImage& other) {
+        EXPECT_TRUE(writeExr(path, other).ok());
+        const auto read = readDepthLayer(path);
+        return read ? std::string() : read.error().message();
+    };
+    // Another program's, which says nothing of the camera that we could trust.
+    LayeredImage plain{2, 2, {{"Z", false, {4, 5, 6, 7}}}};
+    ASSERT_EQ(refusal(plain), "");
+    EXPECT_FALSE(readDepthLayer(path).value().camera);
+    EXPECT_EQ(readDepthLayer(path).value().depth[0], 6.0F);
+    camera.near_plane = 0.0F;
+    EXPECT_NE(refusal(image).find("says in part which camera it is of"), std::string::npos);
+    plain.channels[0].name = "R";
+    EXPECT_NE(refusal(plain).find("has no channel host.Z, nor Z"), std::string::npos);
+    std::filesystem::remove(path);
+    EXPECT_NE(readDepthLayer(path).error().message().find("No such file"), std::string::npos);
+    EXPECT_NE(readDepthLayer(path.parent_path()).error().message().find("a regular file"), std::string::npos);
 }
 
 TEST(Layers, PremultiplyFluidAndLeaveOutWhatIsNotThere) {

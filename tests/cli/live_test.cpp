@@ -182,6 +182,34 @@ TEST_F(Live, AMeshIsASolidAndIsDrawn) {
     EXPECT_EQ(read("m_03.ply"), read("cube.obj"));
 }
 
+TEST_F(Live, AFluidThatCollidesWithItsPicturesDepthIsTheSameHoweverManyFramesAreInFlight) {
+    write("seen.json", R"({
+        "size": [64, 48], "frames": [1, 5], "camera": {"position": [0, 2.6, 1.6], "target": [0, 0.4, 0]},
+        "engine": {"floor_height": 0.3, "crates": [{"centre": [-0.3, 0.5, 0], "size": 0.4, "turn_degrees": 30}]},
+        "simulation": {"radius": 0.05, "collide": "depth",
+                       "fluid": [{"low": [-0.4, 0.8, -0.4], "high": [0.4, 1.2, 0.4], "velocity": [0, -2, 0]}]}})");
+    const nlohmann::json one = render("seen.json -o one_##.png --validation --ledger-log l.log --trace t.json");
+    EXPECT_EQ(one["validation_messages"], 0);
+    EXPECT_TRUE(one["ledger"]["findings"].empty()) << one["ledger"].dump(1);
+    EXPECT_THAT(read("l.log"), AllOf(HasSubstr("captured depth 0"), HasSubstr("captured depth 1")));
+    EXPECT_EQ(one["simulation"]["stands_still_from"], 0);
+    EXPECT_EQ(one["bytes"]["uploaded"], 0);
+    EXPECT_THAT(read("t.json"),
+                AllOf(HasSubstr("capture_depth"), HasSubstr("CAPTURED_DEPTH"), HasSubstr("depth captured")));
+    (void)render("seen.json -o three_##.png --frames-in-flight 3 --isolate");
+    for (const char* number : {"02.png", "05.png"}) {
+        EXPECT_TRUE(read(std::string("one_") + number) == read(std::string("three_") + number)) << number;
+    }
+    // The shapes themselves are not given to it: where the camera looks away it falls through the floor.
+    nlohmann::json scene = nlohmann::json::parse(read("seen.json"));
+    scene["simulation"]["collide"] = "solids";
+    write("solids.json", scene.dump());
+    (void)render("solids.json -o solids_##.png");
+    EXPECT_TRUE(read("solids_01.png") == read("one_01.png"));
+    EXPECT_FALSE(read("solids_05.png") == read("one_05.png"));
+    EXPECT_THAT(run("render seen.json -o late_##.png --frames 2..3").err, HasSubstr("expected frames from 1, found 2"));
+}
+
 TEST_F(Live, TheLedgerFindsAFrameThatDoesNotWaitForItsFluid) {
     writeFluid("s.json");
     const nlohmann::json faulty = render("s.json -o f_##.png --fault skip-wait/simulation@3 --ledger");

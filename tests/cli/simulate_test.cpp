@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
+#include "sluice/particles/particles.hpp"
 
 namespace sluice::test {
 namespace {
@@ -99,6 +100,83 @@ TEST_F(Simulate, AMeshKeepsTheFluidOutAndAnOpenOneIsRefused) {
     write("none.json",
           scene(R"("meshes": [{"path": "none.obj", "position": [0, 0, 0], "turn_degrees": 0, "scale": 1}])"));
     EXPECT_THAT(run("simulate none.json -o none.ply").err, HasSubstr("none.obj: No such file"));
+}
+
+class SimulateSeen : public Simulate {
+  protected:
+    /// Water that falls on a floor and a crate, which are seen from above.
+    void scene(const std::string& name, const std::string& simulation, const std::string& size = "[96, 72]",
+               const std::string& camera = R"("position": [0, 2.6, 1.6])") const {
+        write(name, R"({"size": )" + size + R"(, "camera": {"target": [0, 0.4, 0], )" + camera + R"(},
+            "engine": {"floor_height": 0.3, "crates": [{"centre": [-0.3, 0.5, 0], "size": 0.4, "turn_degrees": 30}]},
+            "simulation": {"radius": 0.05, )" +
+                        simulation + R"(, "fluid": [{"low": [-0.4, 0.8, -0.4], "high": [0.4, 1.2, 0.4],
+                                                     "velocity": [0, -4, 0]}]}})");
+    }
+    std::string refused(const std::string& words, int code = 2) const {
+        const Outcome outcome = run("simulate " + words + " -o f.ply --frames 1..1");
+        EXPECT_EQ(outcome.code, code) << words;
+        EXPECT_FALSE(std::filesystem::exists(at("f.ply")));
+        return outcome.err;
+    }
+    /// Share of the particles that are in the floor.
+    double sunk(const char* name) const {
+        const auto set = particles::load(at(name));
+        EXPECT_TRUE(set.ok()) << name;
+        double found = 0.0;
+        for (std::size_t i = 1; set && i < set.value().position.size(); i += 3) {
+            found += set.value().position[i] < 0.34F ? 1.0 : 0.0;
+        }
+        return set ? found / static_cast<double>(set.value().count()) : 0.0;
+    }
+    static constexpr const char* kSeen = R"("collide": "depth", "depth": {"path": "bare.exr"})";
+};
+
+TEST_F(SimulateSeen, WhatAPictureShowsHoldsTheFluidTheSameBitsEachTime) {
+    scene("s.json", kSeen);
+    ASSERT_EQ(run("render s.json --no-fluid --frames 1..1 -o bare.png --layers bare.exr").code, 0);
+    const nlohmann::json seen = simulate("s.json -o seen_##.ply --frames 1..6 --validation");
+    EXPECT_EQ(seen["validation_messages"], 0);
+    EXPECT_EQ(simulate("s.json -o again_##.ply --frames 6..6")["replay_hash"], seen["replay_hash"]);
+    scene("solids.json", R"("collide": "solids")");
+    (void)simulate("solids.json -o solids_##.ply --frames 6..6");
+    scene("through.json", R"("collide_with_engine": false)");
+    (void)simulate("through.json -o through_##.ply --frames 6..6");
+    EXPECT_EQ(sunk("solids_06.ply"), 0.0);
+    EXPECT_LT(sunk("seen_06.ply"), 0.1) << "but behind the crate, where the camera sees no floor";
+    EXPECT_GT(sunk("through_06.ply"), 0.5);
+    // A file for each frame: the same picture three times is the same fluid.
+    for (const char* copy : {"bare_1.exr", "bare_2.exr", "bare_3.exr"}) {
+        std::filesystem::copy_file(at("bare.exr"), at(copy));
+    }
+    scene("moving.json", R"("collide": "depth", "depth": {"path": "bare_#.exr"})");
+    (void)simulate("moving.json -o moving_##.ply --frames 4..4");
+    EXPECT_EQ(read("moving_04.ply"), read("seen_04.ply"));
+    EXPECT_THAT(run("simulate moving.json -o bare_#.exr --frames 2..2").err, HasSubstr("bare_2.exr"));
+    std::filesystem::remove(at("bare_2.exr"));
+    EXPECT_THAT(run("simulate moving.json -o f.ply --frames 4..4").err, HasSubstr("bare_2.exr: No such file"));
+}
+
+TEST_F(SimulateSeen, APictureThatIsNotOfTheScenesCameraIsRefusedByName) {
+    scene("s.json", kSeen);
+    EXPECT_THAT(refused("s.json"), HasSubstr("bare.exr: No such file"));
+    ASSERT_EQ(run("render s.json --no-fluid --frames 1..1 -o bare.png --layers bare.exr").code, 0);
+    scene("picture.json", R"("collide": "depth", "depth": {"path": "bare.png"})");
+    EXPECT_THAT(refused("picture.json"), HasSubstr("bare.png: has no channel host.Z, nor Z"));
+    scene("none.json", R"("collide": "depth")");
+    EXPECT_THAT(refused("none.json"), HasSubstr("none.json: /simulation/depth/path: expected a file"));
+    scene("wide.json", kSeen, "[96, 54]");
+    EXPECT_THAT(refused("wide.json"), HasSubstr("expected pictures of the scene's shape, 96x54, found 96x72"));
+    scene("aside.json", kSeen, "[96, 72]", R"("position": [0.01, 2.6, 1.6])");
+    EXPECT_THAT(refused("aside.json"), HasSubstr("expected the scene's camera of frame 1, found one that stands"));
+    scene("zoom.json", kSeen, "[192, 144]", R"("position": [0, 2.6, 1.6], "vertical_fov_degrees": 58)");
+    EXPECT_THAT(refused("zoom.json"), HasSubstr("found another lens"));
+    scene("thin.json", R"("collide": "depth", "depth": {"path": "bare.exr", "thickness": 0.1})");
+    EXPECT_THAT(refused("thin.json"), HasSubstr("/simulation/depth/thickness: expected 0, or a number >= 0.2"));
+    scene("bodies.json", std::string(kSeen) + R"(, "bodies": [{"shape": "sphere", "centre": [0, 1.5, 0],
+        "half": [0.1, 0.1, 0.1], "turn_degrees": 0, "density": 1, "velocity": [0, 0, 0], "spin": [0, 0, 0],
+        "path": []}])");
+    EXPECT_THAT(refused("bodies.json"), HasSubstr("bodies do not meet what is seen"));
 }
 
 TEST_F(Simulate, SaysWhatItDidAndWhereTheTimeWent) {

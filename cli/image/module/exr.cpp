@@ -38,6 +38,12 @@ Status writeExr(const std::filesystem::path& path, const LayeredImage& image) {
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("DateTime", "");  // else OpenImageIO writes the hour, and no two renders are the same file
     spec.attribute("Software", "sluice " SLUICE_VERSION);
+    if (image.camera) {
+        // OpenEXR multiplies row vectors with matrices of rows, which are the same 16 numbers.
+        spec.attribute("worldtocamera", OIIO::TypeMatrix, image.camera->view.data());
+        spec.attribute("sluice:projection", OIIO::TypeMatrix, image.camera->projection.data());
+        spec.attribute("sluice:near", image.camera->near_plane);
+    }
     const auto output = OIIO::ImageOutput::create("openexr");
     if (!output) {
         return Error{SLUICE_ERROR_UNSUPPORTED, path.string(), OIIO::geterror(), "install an OpenImageIO with OpenEXR"};

@@ -141,6 +141,15 @@ struct MovingBody {
 };
 inline constexpr std::uint32_t kBodySphere = 0, kBodyCapsule = 1, kBodyBox = 2;
 
+/// What the scene's camera sees, as a solid.
+struct SeenDepth {
+    std::string path;         ///< of `sluice simulate`: an image of depths, one file or a numbered sequence, resolved
+                              ///< against the scene file
+    float thickness = 0.0F;   ///< metres; 0: eight particle radii
+    std::uint32_t scale = 1;  ///< pixels each way of which the nearest is kept
+};
+inline constexpr std::uint32_t kCollideSolids = 0, kCollideDepth = 1;
+
 /// What `sluice simulate` makes particles of. docs/simulation.md has the formulas. Frame 1 is time 0.
 /// Ellipsoids of a simulation's particles while frames are drawn.
 struct Anisotropy {
@@ -159,8 +168,10 @@ struct Simulation {
     float relaxation = 0.1F, tensile = 0.0005F, viscosity = 0.02F, vorticity = 0.0F, cfl = 0.4F, overshoot = 0.17F;
     float tension = 0.0F, adhesion = 0.0F;  ///< m/s^2
     Anisotropy anisotropy;
-    float jitter = 0.05F;                   ///< radii that a particle may be off its lattice at the start
-    std::uint32_t collide_with_engine = 1;  ///< floor, pillars, crates and basins are solids too
+    float jitter = 0.05F;                    ///< radii that a particle may be off its lattice at the start
+    std::uint32_t collide_with_engine = 1;   ///< floor, pillars, crates and basins are solids too
+    std::uint32_t collide = kCollideSolids;  ///< kCollideDepth: not those, nor meshes, but what is seen of them
+    SeenDepth depth;
     std::string start;  ///< particle file that the fluid begins with, resolved like a mesh's; empty: none
     std::vector<FluidBox> fluid;
     std::vector<FluidKind> fluids;  ///< none: water, with the viscosity, tension and adhesion above
