@@ -12,6 +12,7 @@ import argparse
 import math
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -163,6 +164,28 @@ def check_consumer(scratch, root):
     run([folder / "by-hand"], env=loads)
 
 
+MANUAL = """#include <sluice/sluice.h>
+static void draw_world(void) {}
+static void draw_hud(void) {}
+static void draw_crate(const float *centre, const float *turn) { (void)centre; (void)turn; }
+int main(void) {
+    const float view[16] = { 0 }, projection[16] = { 0 };
+    const double seconds = 0.0;
+%s
+    return 0;
+}
+"""
+
+
+def check_manual(source, scratch, root):
+    """What docs/retrofit.md shows of C compiles as it stands there, one block after the other."""
+    blocks = re.findall(r"```c\n(.*?)```", (source / "docs/retrofit.md").read_text(), re.DOTALL)
+    if len(blocks) < 4 or "SluiceEmitter" not in "".join(blocks):
+        fail(f"docs/retrofit.md has {len(blocks)} blocks of C, and those with emitter, solid and body are not among them")
+    (scratch / "manual.c").write_text(MANUAL % "\n".join(blocks))
+    run(["cc", "-std=c99", "-pedantic-errors", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", f"-I{root}/include", scratch / "manual.c"])
+
+
 PACKAGED = ("bin/sluice", "bin/sluice-renderer", "lib/libsluice.so", "lib/libsluice.so.1", "lib/libsluice.so.1.0",
             "lib/sluice/libsluice_renderer_vk.so", "include/sluice/sluice.h", "include/sluice/plugin.h",
             "include/sluice/sluice_trace.h", "lib/pkgconfig/sluice.pc", "lib/cmake/Sluice/SluiceConfig.cmake")
@@ -231,6 +254,7 @@ def main():
                 shutil.copy(shot, asked.keep)
         pixels = check_pictures(pictures["bare"], pictures["watered"], pictures["broken"])
         check_consumer(scratch, root)
+        check_manual(asked.source, scratch, root)
     print(f"retrofit: {lines} lines of engine, {changed} changed: {pixels} pixels of water, all others as they were")
 
 

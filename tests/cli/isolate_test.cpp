@@ -50,7 +50,7 @@ TEST_F(IsolateOption, ARendererThatDiesCostsOneFrameItsFluidAndIsToldOnce) {
     EXPECT_EQ(count(outcome.err, "was killed by signal 9 (SIGKILL)"), 1U) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr("renderer process "));
     EXPECT_EQ(count(outcome.err, "\n"), 2U) << "how it ended, and what the host does: " << outcome.err;
-    EXPECT_THAT(outcome.err, HasSubstr("useless from frame 2 on, created again in 1 frame (try 1 of 5)"));
+    EXPECT_THAT(outcome.err, HasSubstr("useless from frame 2 on, created again within 1 frame (try 1 of 5)"));
     ASSERT_TRUE(exists("a_0003.png"));
     EXPECT_FALSE(read("wet_0002.png") == read("bare_0002.png")) << "the comparison below says nothing";
     EXPECT_TRUE(read("a_0001.png") == read("wet_0001.png"));

@@ -82,7 +82,7 @@ TEST_F(RecoveryTest, ALostDeviceCostsItsFrameAndTheNextHasFluidAgain) {
         EXPECT_EQ(host_->frame(), 7U) << "numbers go on";
         EXPECT_EQ(host_->stats(7).value().frame, 7U);
         EXPECT_EQ(host_->stats(2).error().code, SLUICE_ERROR_DEVICE_LOST);
-        EXPECT_THAT(complaints_, ElementsAre(AllOf(HasSubstr("useless from frame 3 on, created again in 1 frame"),
+        EXPECT_THAT(complaints_, ElementsAre(AllOf(HasSubstr("useless from frame 3 on, created again within 1 frame"),
                                                    HasSubstr("the shim has lost"))))
             << "what comes as it was announced is no warning";
         complaints_.clear();
@@ -103,7 +103,7 @@ TEST_F(RecoveryTest, ARendererThatKeepsFailingIsGivenUpAfterItsTriesAndSaidOnceE
     EXPECT_EQ(control_->submits, 2U);
     EXPECT_TRUE(descriptorsReturnTo(descriptors)) << openDescriptors() << " instead of " << descriptors;
     EXPECT_THAT(complaints_,
-                ElementsAre(HasSubstr("created again in 1 frame"), HasSubstr("try 1 of 2 failed, the next one in 2"),
+                ElementsAre(HasSubstr("created again within 1 frame"), HasSubstr("try 1 of 2 failed, the next one in 2"),
                             AllOf(HasSubstr("try 2 of 2 failed, given up"), HasSubstr("the shim refuses"))));
     EXPECT_THAT(failures_.back(), HasSubstr("there is no renderer: renderer create: the shim refuses this timeline"));
     // A resize is a fresh start.

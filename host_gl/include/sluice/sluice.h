@@ -28,8 +28,10 @@
  * THE FRAMEBUFFER
  *   sluice_end_frame takes depth and colour of the framebuffer that is bound for drawing and draws into its draw buffer
  *   0: a window, with or without samples, or a framebuffer object of one 2-D layer with colour and depth, with or
- *   without samples. Depth as glDepthRange(0, 1) leaves it, nearer is smaller. Colours as a monitor takes them: what is
- *   in an RGBA8 buffer or, encoded, in an sRGB one. Viewport, scissor and GL_FRAMEBUFFER_SRGB do not matter.
+ *   without samples. Nearer is smaller in its depth: reversed depth is refused. A glDepthRange that is there at both
+ *   sluice_begin_frame and sluice_end_frame is the world's; else 0 to 1 is. Colours as a monitor takes them: what is in
+ *   an RGBA8 buffer or, encoded, in an sRGB one. Scissor and GL_FRAMEBUFFER_SRGB do not matter, nor does the viewport
+ *   but for one that covers more than the size that was told.
  *
  * FAILURE
  *   Nothing aborts, throws or writes to stdout. A call that fails leaves the engine's frame as it was and returns a

@@ -20,9 +20,20 @@ Error wrong(std::string detail, const char* remedy) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, "camera", std::move(detail), remedy};
 }
 
+/// glDepthRange puts [-1, 1] into [range[0], range[1]] where [0, 1] is what everybody behind here takes for granted:
+/// z' = (f - n) z + (f + n - 1) w does the same before the division.
+void applyRange(SluiceCamera& camera, const std::array<float, 2>& range) {
+    const float scale = range[1] - range[0];
+    const float shift = range[1] + range[0] - 1.0F;
+    for (std::size_t column = 0; column < 4; ++column) {
+        float& z = camera.projection[column * 4 + 2];
+        z = scale * z + shift * camera.projection[column * 4 + 3];
+    }
+}
+
 }  // namespace
 
-Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, bool zero_to_one) {
+Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, const DepthMapping& depth) {
     const auto finite = [](float value) { return std::isfinite(value); };
     if (!std::all_of(view.begin(), view.end(), finite) || !std::all_of(projection.begin(), projection.end(), finite)) {
         return wrong("a number of its matrices is not finite", "");
@@ -30,12 +41,16 @@ Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, bool
     SluiceCamera camera{};
     std::copy(view.begin(), view.end(), camera.view);
     std::copy(projection.begin(), projection.end(), camera.projection);
-    if (zero_to_one) {
+    if (depth.zero_to_one) {
         // z' = 2 z - w puts [0, w] where OpenGL has [-w, w], so that window depth comes out the same.
         for (std::size_t column = 0; column < 4; ++column) {
             camera.projection[column * 4 + 2] =
                 2.0F * camera.projection[column * 4 + 2] - camera.projection[column * 4 + 3];
         }
+    }
+    const bool whole = depth.range == std::array{0.0F, 1.0F};
+    if (!whole) {
+        applyRange(camera, depth.range);
     }
     const double p11{camera.projection[11]};
     const double p15{camera.projection[15]};
@@ -48,10 +63,14 @@ Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, bool
     const double p10 = double{camera.projection[10]} / -p11;
     const double p14 = double{camera.projection[14]} / -p11;
     const double near = p14 / (p10 - 1.0);
-    const double far = p10 + 1.0 < -1e-12 ? p14 / (p10 + 1.0) : kFarthest;
+    // A quotient below 0 lies beyond infinity: a far plane that was moved there, or that the range leaves no room for.
+    const double quotient = p14 / (p10 + 1.0);
+    const double far = std::abs(p10 + 1.0) > 1e-12 && quotient > 0.0 ? quotient : kFarthest;
     if (!(near > 0.0) || !(far > near)) {
-        return wrong(fmt::format("its projection has near {} and far {}, expected 0 < near < far", near, far),
-                     "a projection that maps near to 1 and far to 0 is not understood");
+        return wrong(
+            fmt::format("its projection has near {:.6g} and far {:.6g}{}, expected 0 < near < far", near, far,
+                        whole ? "" : fmt::format(" through glDepthRange({}, {})", depth.range[0], depth.range[1])),
+            "reversed depth, near at 1 and far at 0, is not understood: draw the world with near at 0");
     }
     camera.near_plane = static_cast<float>(near);
     camera.far_plane = static_cast<float>(std::min(far, kFarthest));
@@ -75,6 +94,25 @@ bool clipsZeroToOne() {
     GLint mode = GL_NEGATIVE_ONE_TO_ONE;
     glGetIntegerv(GL_CLIP_DEPTH_MODE, &mode);
     return mode == GL_ZERO_TO_ONE;
+}
+
+std::array<float, 2> depthRange() {
+    std::array<float, 2> range{0.0F, 1.0F};
+    glGetFloatv(GL_DEPTH_RANGE, range.data());
+    return range;
+}
+
+Status checkDepthTest() {
+    GLint function = GL_LESS;
+    float clear = 1.0F;
+    glGetIntegerv(GL_DEPTH_FUNC, &function);
+    glGetFloatv(GL_DEPTH_CLEAR_VALUE, &clear);
+    if ((function != GL_GREATER && function != GL_GEQUAL) || clear != 0.0F || glIsEnabled(GL_DEPTH_TEST) == GL_FALSE) {
+        return {};
+    }
+    return wrong(fmt::format("its near lies at depth 0, but the depth test is {} and glClearDepth 0",
+                             function == GL_GREATER ? "GL_GREATER" : "GL_GEQUAL"),
+                 "reversed depth is not understood: draw the world with near at 0, GL_LESS and glClearDepth(1)");
 }
 
 }  // namespace sluice::host

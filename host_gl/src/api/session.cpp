@@ -230,7 +230,7 @@ Status Session::settle(const std::optional<Extent>& wanted) {
             return status;
         }
         if (host_ != nullptr) {
-            log_(SLUICE_LOG_INFO,
+            log_(SLUICE_LOG_WARNING,
                  "another GL context is current: everything is made anew in it, and the fluid begins again");
         }
         const Extent extent = wanted ? *wanted : follows_drawable_ ? Extent{64, 64} : extent_;
@@ -304,6 +304,7 @@ Status Session::beginFrame(const float* view, const float* projection, double ti
         return noContext("sluice_begin_frame");
     }
     const GlErrorScope errors;
+    range_at_begin_ = depthRange();
     if (Status status = settle(std::nullopt); !status) {
         return status;
     }
@@ -313,13 +314,11 @@ Status Session::beginFrame(const float* view, const float* projection, double ti
         if (!status && !host_->recovering()) {
             return status;
         }
-        // The number is spent even where a renderer was lost over it: the next one begins with it.
+        // The number is spent even where a renderer was lost over it: the next one begins with it, in this very frame
+        // perhaps. The log has that; whether the frame gets fluid sluice_end_frame says.
         ++value_;
         owed_ = 0.0;
         pending_ = true;
-        if (!status) {
-            return status;
-        }
     }
     return camera;
 }

@@ -72,6 +72,10 @@ class Session {
     /// Lets go of the FluidHost, with or without GL.
     void drop();
     [[nodiscard]] Status draw();
+    /// The camera of the frame, as the depth buffer has it.
+    [[nodiscard]] Result<SluiceCamera> depthCamera();
+    /// The size to draw at: what was told, if the target is not another size, or what it has.
+    [[nodiscard]] Result<Extent> extentOf(const Target& target, const CurrentContext& present) const;
     [[nodiscard]] static std::string ledgerLog(const char* asked);
     [[nodiscard]] Status startLedger();
 
@@ -110,6 +114,8 @@ class Session {
     std::uint64_t value_ = 0;      ///< of the simulation, asked for
     bool pending_ = false;         ///< that value has not been drawn
     bool in_frame_ = false;
+    std::array<float, 2> range_at_begin_{0.0F, 1.0F};  ///< glDepthRange
+    bool range_told_ = false;
     std::uint64_t drawn_ = 0;  ///< the host's number of the last frame with fluid; 0: none in this context
     std::uint64_t frames_ = 0, frames_without_ = 0;
     double end_frame_seconds_ = 0.0, wait_seconds_ = 0.0;

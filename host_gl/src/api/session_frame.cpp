@@ -47,6 +47,57 @@ Status Session::endFrame() {
     return status;
 }
 
+Result<SluiceCamera> Session::depthCamera() {
+    // Begin and end stand around the world: a range that both have seen is the world's. One that only the end has may
+    // be what a weapon before the eye was drawn with.
+    DepthMapping depth{clipsZeroToOne(), depthRange()};
+    constexpr std::array kWhole{0.0F, 1.0F};
+    if (depth.range != kWhole && depth.range != range_at_begin_) {
+        if (!range_told_) {
+            range_told_ = true;
+            log_(SLUICE_LOG_WARNING,
+                 fmt::format("camera: glDepthRange is {} to {} at sluice_end_frame and was {} to {} at "
+                             "sluice_begin_frame: the world is taken to be drawn with 0 to 1 (set the world's range "
+                             "before sluice_begin_frame and leave it until sluice_end_frame)",
+                             depth.range[0], depth.range[1], range_at_begin_[0], range_at_begin_[1]));
+        }
+        depth.range = kWhole;
+    }
+    Result<SluiceCamera> camera = cameraOf(*view_, *projection_, depth);
+    if (camera) {
+        if (Status status = checkDepthTest(); !status) {
+            return status.error();
+        }
+    }
+    return camera;
+}
+
+Result<Extent> Session::extentOf(const Target& target, const CurrentContext& present) const {
+    const std::optional<Extent> real = target.extent ? target.extent : drawableExtent(present);
+    if (follows_drawable_) {
+        if (!real) {
+            return Error{SLUICE_ERROR_UNSUPPORTED, "size of the drawable", "the window system does not tell it",
+                         "give it with sluice_resize"};
+        }
+        return *real;
+    }
+    if (!real || *real == extent_) {
+        return extent_;
+    }
+    // A smaller one is right for an engine that draws into a part of it, and wrong for one that fills the whole.
+    std::array<GLint, 4> viewport{};
+    glGetIntegerv(GL_VIEWPORT, viewport.data());
+    const bool filled =
+        viewport == std::array<GLint, 4>{0, 0, static_cast<GLint>((*real)[0]), static_cast<GLint>((*real)[1])};
+    if ((*real)[0] < extent_[0] || (*real)[1] < extent_[1] || filled) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT,
+                     target.extent ? "framebuffer bound for drawing" : "window bound for drawing",
+                     fmt::format("it is {}x{}, Sluice was told {}x{}", (*real)[0], (*real)[1], extent_[0], extent_[1]),
+                     "call sluice_resize with its size, or give 0 and 0 in SluiceOptions to have it asked"};
+    }
+    return extent_;
+}
+
 Status Session::draw() {
     if (!view_ || !projection_) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame", "there is no camera",
@@ -58,7 +109,7 @@ Status Session::draw() {
                      "the context is not the one that sluice_begin_frame was called in", "call both in the same"};
     }
     const GlErrorScope errors;
-    const Result<SluiceCamera> camera = cameraOf(*view_, *projection_, clipsZeroToOne());
+    const Result<SluiceCamera> camera = depthCamera();
     if (!camera) {
         return camera.error();
     }
@@ -67,21 +118,11 @@ Status Session::draw() {
         return bound.error();
     }
     const Target& target = bound.value();
-    Extent extent = extent_;
-    if (follows_drawable_) {
-        const std::optional<Extent> drawable = target.extent ? target.extent : drawableExtent(present);
-        if (!drawable) {
-            return Error{SLUICE_ERROR_UNSUPPORTED, "size of the drawable", "the window system does not tell it",
-                         "give it with sluice_resize"};
-        }
-        extent = *drawable;
+    const Result<Extent> size = extentOf(target, present);
+    if (!size) {
+        return size.error();
     }
-    if (target.extent && ((*target.extent)[0] < extent[0] || (*target.extent)[1] < extent[1])) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "framebuffer bound for drawing",
-                     fmt::format("it is {}x{}, Sluice was told {}x{}", (*target.extent)[0], (*target.extent)[1],
-                                 extent[0], extent[1]),
-                     "call sluice_resize with its size"};
-    }
+    const Extent extent = size.value();
     if (Status status = settle(extent); !status) {
         return status;
     }

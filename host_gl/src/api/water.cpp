@@ -94,13 +94,14 @@ Status check(const SluiceWater& w) {
         return wrong("radius", fmt::format("{} is not a positive length in metres", w.radius), "0.05 is a start");
     }
     if (w.block_count > 0 && w.blocks == nullptr) {
-        return wrong("blocks", fmt::format("it is NULL with a count of {}", w.block_count), "");
+        return wrong("blocks", fmt::format("it is NULL with a count of {}", w.block_count),
+                     "give their address, or a count of 0");
     }
     if (w.solid_count > kMostSolids || (w.solid_count > 0 && w.solids == nullptr)) {
         return wrong("solids",
                      fmt::format("expected at most {}, found {}{}", kMostSolids, w.solid_count,
                                  w.solids == nullptr ? " at NULL" : ""),
-                     "");
+                     "give fewer, and an address");
     }
     if (w.steps_per_second == 0 || w.iterations == 0) {
         return wrong("steps_per_second and iterations",
@@ -108,7 +109,7 @@ Status check(const SluiceWater& w) {
                      "start from sluice_water_defaults");
     }
     if (!finite(w.low) || !finite(w.high) || !finite(w.gravity)) {
-        return wrong("low, high and gravity", "one of their numbers is not finite", "");
+        return wrong("low, high and gravity", "one of their numbers is not finite", "start from sluice_water_defaults");
     }
     for (std::size_t i = 0; i < 3; ++i) {
         const float room = std::array{w.high[0] - w.low[0], w.high[1] - w.low[1], w.high[2] - w.low[2]}[i];
@@ -125,7 +126,11 @@ struct Lattice {
     [[nodiscard]] std::uint64_t sites() const { return count[0] * count[1] * count[2]; }
 };
 
-Result<Lattice> latticeOf(const SluiceBlock& block, float radius) {
+std::string shown(const float (&v)[3]) {
+    return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
+}
+
+Result<Lattice> latticeOf(const SluiceBlock& block, std::size_t number, float radius) {
     Lattice lattice;
     double sites = 1.0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -133,22 +138,32 @@ Result<Lattice> latticeOf(const SluiceBlock& block, float radius) {
         // What rounding took from a block of a whole number of spacings is given back.
         const double fit = std::floor(room / (2.0 * double{radius}) + 1e-3);
         if (!std::isfinite(fit) || !finite(block.velocity)) {
-            return wrong("blocks", "one of their numbers is not finite", "");
+            return wrong("blocks", fmt::format("a number of block {} is not finite", number), "give finite metres");
+        }
+        if (fit < 1.0) {
+            return wrong(
+                "blocks",
+                fmt::format("block {}, {} to {}, is {:.6g} m wide along axis {} and holds no particle of radius {} m",
+                            number, shown(block.low), shown(block.high), room, i, radius),
+                room < 0.0 ? "low is the corner with the smaller numbers, high the one with the larger"
+                           : "make it at least two radii wide, or water.radius smaller");
         }
         sites *= std::max(fit, 0.0);
         lattice.count.at(i) = static_cast<std::uint64_t>(std::clamp(fit, 0.0, double{kMostParticles}));
     }
     if (sites > double{kMostParticles}) {
         return wrong("blocks",
-                     fmt::format("one of them holds {:.0f} particles of radius {} m, {} are the limit", sites, radius,
-                                 kMostParticles),
+                     fmt::format("block {} holds {:.0f} particles of radius {} m, {} are the limit", number, sites,
+                                 radius, kMostParticles),
                      "make water.radius larger or the block smaller");
     }
     return lattice;
 }
 
-void fill(Water& water, const SluiceBlock& block, const Lattice& lattice, float radius,
-          std::span<const SluiceSolid> solids) {
+Status fill(Water& water, const SluiceWater& asked, std::size_t number, const Lattice& lattice) {
+    const SluiceBlock& block = asked.blocks[number];
+    const std::span solids(asked.solids, asked.solid_count);
+    const float radius = asked.radius;
     const double spacing = 2.0 * double{radius};
     for (std::uint64_t i = 0; i < lattice.sites(); ++i) {
         const std::array<std::uint64_t, 3> site{i % lattice.count[0], i / lattice.count[0] % lattice.count[1],
@@ -163,13 +178,20 @@ void fill(Water& water, const SluiceBlock& block, const Lattice& lattice, float 
         const bool free = std::all_of(solids.begin(), solids.end(), [&](const SluiceSolid& solid) {
             return distance(solid, p) >= 0.5 * double{radius};
         });
-        if (free) {
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                water.position.push_back(static_cast<float>(p.at(axis)));
-                water.velocity.push_back(static_cast<float>(vec(block.velocity).at(axis)));
+        for (std::size_t axis = 0; free && axis < 3; ++axis) {
+            const auto at = static_cast<float>(p.at(axis));
+            if (double{at} < vec(asked.low).at(axis) || double{at} > vec(asked.high).at(axis)) {
+                return wrong(
+                    "blocks",
+                    fmt::format("block {}, {} to {}, sticks out of the box, {} to {}, along axis {}", number,
+                                shown(block.low), shown(block.high), shown(asked.low), shown(asked.high), axis),
+                    "make the block smaller, or water.low and water.high wider");
             }
+            water.position.push_back(at);
+            water.velocity.push_back(static_cast<float>(vec(block.velocity).at(axis)));
         }
     }
+    return {};
 }
 
 SluiceSimulation settingsOf(const SluiceWater& asked, std::uint32_t particles) {
@@ -254,9 +276,8 @@ Result<Water> makeWater(const SluiceWater& asked) {
         return status.error();
     }
     Water water;
-    const std::span solids(asked.solids, asked.solid_count);
-    for (const SluiceBlock& block : std::span(asked.blocks, asked.block_count)) {
-        const Result<Lattice> lattice = latticeOf(block, asked.radius);
+    for (std::size_t i = 0; i < asked.block_count; ++i) {
+        const Result<Lattice> lattice = latticeOf(asked.blocks[i], i, asked.radius);
         if (!lattice) {
             return lattice.error();
         }
@@ -264,11 +285,16 @@ Result<Water> makeWater(const SluiceWater& asked) {
             return wrong("blocks", fmt::format("together they hold more than {} particles", kMostParticles),
                          "make water.radius larger or the blocks smaller");
         }
-        fill(water, block, lattice.value(), asked.radius, solids);
+        if (Status status = fill(water, asked, i, lattice.value()); !status) {
+            return status.error();
+        }
+    }
+    if (water.count() == 0 && asked.block_count > 0) {
+        return wrong("blocks", "they hold no particle outside of the solids",
+                     "move them out of the solids, or leave them out if an emitter is to fill the box");
     }
     if (water.count() == 0 && asked.emitter_count == 0) {
-        return wrong("blocks", "they hold no particle outside of the solids, and there is no emitter",
-                     "give a block of fluid at least two radii wide along each axis, or an emitter");
+        return wrong("blocks", "there are none, and there is no emitter", "give a block of fluid, or an emitter");
     }
     water.settings = settingsOf(asked, water.count());
     if (Status status = checkArrays(water.view()); !status) {

@@ -155,7 +155,7 @@ void RecoveringHost::fault(const Error& cause) {
     log(SLUICE_LOG_ERROR,
         recovery_.givenUp()
             ? fmt::format("renderer: useless once more after {} tries, given up: {}", recovery_.tries(), cause_)
-            : fmt::format("renderer: useless from frame {} on, created again in {} (try {} of {}), until then the "
+            : fmt::format("renderer: useless from frame {} on, created again within {} (try {} of {}), until then the "
                           "host's frames go on without fluid: {}",
                           last_fluid_ + 1, frames(recovery_.framesToGo()), recovery_.tries() + 1,
                           config_.recovery.attempts, cause_));

@@ -19,8 +19,8 @@ constexpr std::uint32_t kMostWithEmitters = 4'000'000;
 /// Of a driven body, m: a solver's domain is smaller.
 constexpr double kFarthest = 1e8;
 
-Error invalid(const char* thing, std::string detail) {
-    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, std::move(detail), ""};
+Error invalid(const char* thing, std::string detail, const char* remedy = "") {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, std::move(detail), remedy};
 }
 
 Result<Solid> solidOf(const SluiceSolid& solid, std::size_t index) {
@@ -42,7 +42,8 @@ Result<Solid> solidOf(const SluiceSolid& solid, std::size_t index) {
             return boxSolid(triple(solid.a), triple(solid.b), solid.turn_degrees);
         default:
             return invalid("simulation.solids",
-                           fmt::format("number {} has kind {}, which is no SluiceSolidKind", index, solid.kind));
+                           fmt::format("number {} has kind {}, which is no SluiceSolidKind", index, solid.kind),
+                           "give one from SLUICE_SOLID_PLANE to SLUICE_SOLID_BOX, and 0 in what is not used");
     }
 }
 

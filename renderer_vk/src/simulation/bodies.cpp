@@ -93,8 +93,8 @@ void fly(const Body& body, BodyState& state, const Triple& gravity, double secon
     state.spin = spinOf(body, state, momentum);
 }
 
-Error wrong(const std::string& thing, const std::string& expected, const std::string& found) {
-    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected {}, found {}", expected, found), ""};
+Error wrong(const std::string& thing, const std::string& expected, const std::string& found, const char* remedy = "") {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected {}, found {}", expected, found), remedy};
 }
 std::string shown(const Triple& v) {
     return fmt::format("[{}, {}, {}]", v[0], v[1], v[2]);
@@ -119,12 +119,13 @@ Status checkBody(const Body& body, const std::string& thing, const Triple& low, 
     }
     if (!finite(body.velocity) || !finite(body.spin) || !std::isfinite(body.turn_degrees) ||
         !(body.density >= 1e-3F && body.density <= 1e3F)) {
-        return wrong(thing, "finite numbers and a density in [0.001, 1000]", fmt::format("{}", body.density));
+        return wrong(thing, "finite numbers and a density in [0.001, 1000]", fmt::format("{}", body.density),
+                     "density is in terms of the fluid's: 0.5 floats half under, 2 sinks");
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!(body.centre[axis] >= low[axis] && body.centre[axis] <= high[axis]) && body.free()) {
             return wrong(thing, fmt::format("a centre in the domain, {} to {}", shown(low), shown(high)),
-                         shown(body.centre));
+                         shown(body.centre), "move it into the box, or drive it instead of letting it float");
         }
     }
     for (std::size_t i = 0; i < body.path.size(); ++i) {

@@ -13,8 +13,8 @@ namespace {
 /// Particles of one layer of one emitter: more are not a nozzle.
 constexpr double kMostSites = 16'384.0;
 
-Error wrong(const std::string& thing, const std::string& expected, const std::string& found) {
-    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected {}, found {}", expected, found), ""};
+Error wrong(const std::string& thing, const std::string& expected, const std::string& found, const char* remedy = "") {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected {}, found {}", expected, found), remedy};
 }
 
 bool finite(std::span<const float> values) {
@@ -49,18 +49,19 @@ Status checkOpening(const Emitter& e, const std::string& thing, float radius) {
 
 Status checkFlow(const Emitter& e, const std::string& thing, std::size_t sites, float radius) {
     if (!(e.speed > 0.0F && e.speed <= 1e4F)) {
-        return wrong(thing, "a speed in (0, 10000] m/s", fmt::format("{}", e.speed));
+        return wrong(thing, "a speed in (0, 10000] m/s", fmt::format("{}", e.speed),
+                     "give a speed; one that is to be shut has a stop, or is left out");
     }
     const double densest = static_cast<double>(sites) * double{e.speed} / (2.0 * double{radius});
     if (!(e.rate >= 0.0F && double{e.rate} <= densest * (1.0 + 1e-6))) {
         return wrong(thing,
                      fmt::format("a rate in [0, {:.6g}] particles per second, which is {} at a time, two radii apart",
                                  densest, sites),
-                     fmt::format("{}", e.rate));
+                     fmt::format("{}", e.rate), "give 0 for the densest, or a larger opening, or a higher speed");
     }
     if (!(e.start >= 0.0F && std::isfinite(e.start) && std::isfinite(e.stop) && (e.stop == 0.0F || e.stop > e.start))) {
         return wrong(thing, "a start >= 0 and a stop after it, or 0 for none",
-                     fmt::format("{} and {}", e.start, e.stop));
+                     fmt::format("{} and {}", e.start, e.stop), "give 0 and 0 for one that never stops");
     }
     return {};
 }
@@ -71,16 +72,17 @@ Status checkSites(std::span<const Triple> sites, const std::string& thing, float
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (x[axis] < low[axis] + 0.5F * radius || x[axis] > high[axis] - 0.5F * radius) {
                 return wrong(thing, fmt::format("an opening within the domain, {} to {}", shown(low), shown(high)),
-                             shown(x));
+                             shown(x), "move its centre into the box, half a radius and its width from the walls");
             }
         }
         for (std::size_t k = 0; k < solids.size(); ++k) {
             if (distanceTo(solids[k], x) < 0.5 * double{radius}) {
-                return wrong(thing, fmt::format("an opening outside solid {}", k), shown(x));
+                return wrong(thing, fmt::format("an opening outside solid {}", k), shown(x),
+                             "move it out, along its direction");
             }
         }
         if (meshes != nullptr && contactWith(*meshes, wide(x)).distance < 0.5 * double{radius}) {
-            return wrong(thing, "an opening outside the meshes", shown(x));
+            return wrong(thing, "an opening outside the meshes", shown(x), "move it out, along its direction");
         }
     }
     return {};

@@ -55,8 +55,8 @@ bool finite(std::span<const float> values) {
     return std::all_of(values.begin(), values.end(), [](float value) { return std::isfinite(value); });
 }
 
-Error wrong(const std::string& thing, const std::string& expected, const std::string& found) {
-    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected {}, found {}", expected, found), ""};
+Error wrong(const std::string& thing, const std::string& expected, const std::string& found, const char* remedy = "") {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, thing, fmt::format("expected {}, found {}", expected, found), remedy};
 }
 
 std::string shown(std::span<const float> v) {
@@ -168,12 +168,12 @@ Status checkSettings(const SimulationSettings& s) {
     }
     if (s.meshed() && !s.bodies.empty()) {
         return wrong("simulation: bodies", "none among meshes, which bodies do not meet",
-                     fmt::format("{}", s.bodies.size()));
+                     fmt::format("{}", s.bodies.size()), "leave out the bodies, or the meshes");
     }
     if (s.seen != nullptr) {
         if (!s.bodies.empty()) {
             return wrong("simulation: bodies", "none beside a depth field, which bodies do not meet",
-                         fmt::format("{}", s.bodies.size()));
+                         fmt::format("{}", s.bodies.size()), "leave out the bodies, or set depth_scale to 0");
         }
         if (Status status = checkDepthField(*s.seen, s.radius); !status) {
             return status;
@@ -203,7 +203,7 @@ Status checkParticles(const SimulationSettings& settings, std::span<const float>
             if (x[axis] < settings.low[axis] || x[axis] > settings.high[axis]) {
                 return wrong(
                     thing, fmt::format("a position in the domain, {} to {}", shown(settings.low), shown(settings.high)),
-                    shown(x));
+                    shown(x), "move it into the domain, or make the domain wider");
             }
         }
         for (std::size_t body = 0; body < settings.bodies.size(); ++body) {
