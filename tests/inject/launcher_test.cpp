@@ -16,6 +16,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using ::testing::StartsWith;
 
 constexpr const char* kInject = "'" SLUICE_PROGRAM "' inject ";
 
@@ -48,6 +49,19 @@ TEST_F(InjectTest, ExitCodesAndSignalsPassThroughWithAndWithoutAReport) {
         EXPECT_EQ(run(std::string(kInject) + options + " -- sh -c 'kill -TERM $$'").code, 128 + 15) << options;
         EXPECT_EQ(run(std::string(kInject) + options + " -- /nonexistent/program").code, 127) << options;
     }
+}
+
+TEST_F(InjectTest, AReportInAFileIsApartFromWhatTheProgramPrints) {
+    const Outcome alone = bare("glx symbol");
+    const Outcome with = injected("--off --report --json --report-to folder/seen.json", "glx symbol");
+    EXPECT_EQ(with.code, 0) << with.err;
+    EXPECT_EQ(with.out, alone.out);
+    const Outcome report = run("cat folder/seen.json");
+    EXPECT_THAT(report.out, AllOf(StartsWith("["), HasSubstr("\"frames\": 4")));
+    const Outcome nowhere = injected("--off --report --report-to /proc/none/seen.json", "glx symbol");
+    EXPECT_NE(nowhere.code, 0);
+    EXPECT_EQ(nowhere.out, "") << "the program has not been started";
+    EXPECT_THAT(nowhere.err, HasSubstr("/proc/none"));
 }
 
 TEST_F(InjectTest, AProgramThatIsKilledLeavesItsReport) {
@@ -85,7 +99,9 @@ TEST_F(InjectTest, ChildrenAreLeftAloneUnlessAskedFor) {
 TEST_F(InjectTest, AProfileIsReadBeforeTheProgramStarts) {
     write("good.json",
           R"({"program": "x", "camera": {"route": "fixed_function", "near": 0.5, "far": 9}, "overlay": "swap",
-        "water": {"place": "world", "units_per_metre": 10, "up": [0, 0, 1]}})");
+        "water": {"place": "world", "units_per_metre": 10, "up": [0, 0, 1],
+        "emitters": [{"shape": "disc", "centre": [0, 1, 0], "direction": [0, -1, 0], "width": 0.5, "height": 0.5,
+                      "speed": 1}]}})");
     const Outcome good = injected("--off --report --profile good.json", "glx symbol");
     EXPECT_THAT(good.out, AllOf(HasSubstr("near 0.5, far 9;"), HasSubstr("planes by the profile"),
                                 HasSubstr("fluid before it in 0 of 4 frames")));
@@ -96,7 +112,9 @@ TEST_F(InjectTest, AProfileIsReadBeforeTheProgramStarts) {
         EXPECT_THAT(outcome.err, HasSubstr(said)) << text;
         EXPECT_THAT(outcome.out, IsEmpty());
     };
-    refused("[]", "is not a JSON object");
+    refused("[]", "expected a JSON object, found a JSON array");
+    refused("{\"program\": \"x\",\n \"overlay\": \"swap\",}", "line 2, column 20");
+    refused(R"({"water": {"emitters": [{"speed": 1}]}})", "/water/emitters/0/shape");
     refused(R"({"camera": {"roote": "uniforms"}})", "route");
     refused(R"({"overlay": "never"})", "/overlay");
     refused(R"({"camera": {"near": 5, "far": 1}})", "/camera/far");
@@ -105,7 +123,8 @@ TEST_F(InjectTest, AProfileIsReadBeforeTheProgramStarts) {
 }
 
 TEST_F(InjectTest, AWrongCommandLineStartsNothing) {
-    for (const char* words : {"", "--off", "--bogus -- true", "--step 0 -- true", "--json -- true"}) {
+    for (const char* words :
+         {"", "--off", "--bogus -- true", "--step 0 -- true", "--json -- true", "--report-to x -- true"}) {
         const Outcome outcome = run(kInject + std::string(words));
         EXPECT_EQ(outcome.code, 1) << words;
         EXPECT_THAT(outcome.err, HasSubstr("sluice: error:")) << words;

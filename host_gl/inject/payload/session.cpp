@@ -379,7 +379,8 @@ double Session::seenDistance(const FoundCamera& camera) const {
 void Session::giveUp(const std::string& why) {
     if (failure_.empty()) {
         failure_ = why;
-        (void)std::fprintf(stderr, "sluice inject: no more fluid in this context: %s\n", why.c_str());
+        const std::string because = wasSaid(why) ? "" : ": " + why;
+        (void)std::fprintf(stderr, "sluice inject: no more fluid in this context%s\n", because.c_str());
     }
     if (water_ != nullptr) {
         last_water_ = water_->report();

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <mutex>
 #include <utility>
 
 #include "payload/placement.hpp"
@@ -65,9 +66,21 @@ Result<Api> loadApi(const std::string& folder) {
     return api;
 }
 
+/// What was written last, by whichever thread. Never destroyed: one of them may write at the very end.
+struct Said {
+    std::mutex mutex;
+    std::string line;
+};
+Said& said() {
+    static Said* const only = new Said;
+    return *only;
+}
+
 /// Warnings and errors, which the user can do something about.
 void logLine(void* /*user*/, std::int32_t level, const char* message) {
     if (level >= SLUICE_LOG_WARNING) {
+        const std::lock_guard lock(said().mutex);
+        said().line = message;
         (void)std::fprintf(stderr, "sluice inject: %s\n", message);
     }
 }
@@ -165,7 +178,7 @@ class LibraryWater final : public Water {
   private:
     Status failure(SluiceResult result, const Sluice* of) {
         last_error_ = api_.lastError(of);
-        return Error{static_cast<SluiceResultCode>(result), last_error_, "", ""};
+        return Error{static_cast<SluiceResultCode>(result), "", last_error_, ""};
     }
 
     Status setWater(const WaterPlan& plan) {
@@ -210,6 +223,11 @@ class LibraryWater final : public Water {
 };
 
 }  // namespace
+
+bool wasSaid(const std::string& message) {
+    const std::lock_guard lock(said().mutex);
+    return message == said().line;
+}
 
 Result<std::unique_ptr<Water>> createWater(const std::string& folder, const Settings& settings,
                                            const FoundCamera& camera, double distance) {

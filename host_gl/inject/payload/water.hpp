@@ -32,6 +32,9 @@ class Water {
     [[nodiscard]] virtual WaterReport report() = 0;
 };
 
+/// Whether it is the last line that libsluice.so had written to stderr.
+[[nodiscard]] bool wasSaid(const std::string& message);
+
 /// `folder`: of the payload, with a slash; libsluice.so lies there or, installed, above it. `distance`: of what is
 /// seen, in the program's units.
 [[nodiscard]] Result<std::unique_ptr<Water>> createWater(const std::string& folder, const Settings& settings,

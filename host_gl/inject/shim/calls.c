@@ -188,3 +188,64 @@ BEFORE(glMultiDrawArraysIndirect, (uint32_t mode, const void* where, int32_t dra
        (mode, where, draws, stride), draw(0))
 BEFORE(glMultiDrawElementsIndirect, (uint32_t mode, uint32_t type, const void* where, int32_t draws, int32_t stride),
        (mode, type, where, draws, stride), draw(0))
+
+/* Extensions' names of the above, which lookups by name go by. */
+BEFORE(glDrawArraysInstancedARB, (uint32_t mode, int32_t first, int32_t count, int32_t instances),
+       (mode, first, count, instances), draw(product(count, instances)))
+BEFORE(glDrawArraysInstancedEXT, (uint32_t mode, int32_t first, int32_t count, int32_t instances),
+       (mode, first, count, instances), draw(product(count, instances)))
+BEFORE(glDrawElementsInstancedARB,
+       (uint32_t mode, int32_t count, uint32_t type, const void* indices, int32_t instances),
+       (mode, count, type, indices, instances), draw(product(count, instances)))
+BEFORE(glDrawElementsInstancedEXT,
+       (uint32_t mode, int32_t count, uint32_t type, const void* indices, int32_t instances),
+       (mode, count, type, indices, instances), draw(product(count, instances)))
+BEFORE(glMultiDrawArraysEXT, (uint32_t mode, const int32_t* first, const int32_t* counts, int32_t draws),
+       (mode, first, counts, draws), draw(sum(counts, draws)))
+BEFORE(glMultiDrawElementsEXT,
+       (uint32_t mode, const int32_t* counts, uint32_t type, const void* const* indices, int32_t draws),
+       (mode, counts, type, indices, draws), draw(sum(counts, draws)))
+
+BEFORE(glMultiDrawElementsBaseVertex,
+       (uint32_t mode, const int32_t* counts, uint32_t type, const void* const* indices, int32_t draws,
+        const int32_t* bases),
+       (mode, counts, type, indices, draws, bases), draw(sum(counts, draws)))
+BEFORE(glDrawArraysInstancedBaseInstance,
+       (uint32_t mode, int32_t first, int32_t count, int32_t instances, uint32_t base),
+       (mode, first, count, instances, base), draw(product(count, instances)))
+BEFORE(glDrawElementsInstancedBaseInstance,
+       (uint32_t mode, int32_t count, uint32_t type, const void* indices, int32_t instances, uint32_t base),
+       (mode, count, type, indices, instances, base), draw(product(count, instances)))
+BEFORE(glDrawElementsInstancedBaseVertexBaseInstance,
+       (uint32_t mode, int32_t count, uint32_t type, const void* indices, int32_t instances, int32_t vertex,
+        uint32_t base),
+       (mode, count, type, indices, instances, vertex, base), draw(product(count, instances)))
+BEFORE(glMultiDrawArraysIndirectCount, (uint32_t mode, const void* where, intptr_t draws, int32_t most, int32_t stride),
+       (mode, where, draws, most, stride), draw(0))
+BEFORE(glMultiDrawElementsIndirectCount,
+       (uint32_t mode, uint32_t type, const void* where, intptr_t draws, int32_t most, int32_t stride),
+       (mode, type, where, draws, most, stride), draw(0))
+BEFORE(glDrawTransformFeedback, (uint32_t mode, uint32_t feedback), (mode, feedback), draw(0))
+BEFORE(glDrawTransformFeedbackStream, (uint32_t mode, uint32_t feedback, uint32_t stream), (mode, feedback, stream),
+       draw(0))
+BEFORE(glDrawTransformFeedbackInstanced, (uint32_t mode, uint32_t feedback, int32_t instances),
+       (mode, feedback, instances), draw(0))
+BEFORE(glDrawTransformFeedbackStreamInstanced, (uint32_t mode, uint32_t feedback, uint32_t stream, int32_t instances),
+       (mode, feedback, stream, instances), draw(0))
+
+/* What draws without an array: bars and crosshairs, text of glutBitmapCharacter, pictures, patches. */
+#define RECTANGLE(name, number)                                                           \
+    BEFORE(name, (number x1, number y1, number x2, number y2), (x1, y1, x2, y2), draw(4)) \
+    BEFORE(name##v, (const number* a, const number* b), (a, b), draw(4))
+RECTANGLE(glRectd, double)
+RECTANGLE(glRectf, float)
+RECTANGLE(glRecti, int32_t)
+RECTANGLE(glRects, int16_t)
+BEFORE(glBitmap, (int32_t width, int32_t height, float x, float y, float dx, float dy, const uint8_t* bits),
+       (width, height, x, y, dx, dy, bits), draw(0))
+BEFORE(glDrawPixels, (int32_t width, int32_t height, uint32_t format, uint32_t type, const void* pixels),
+       (width, height, format, type, pixels), draw(0))
+BEFORE(glCopyPixels, (int32_t x, int32_t y, int32_t width, int32_t height, uint32_t what), (x, y, width, height, what),
+       draw(0))
+BEFORE(glEvalMesh1, (uint32_t mode, int32_t i1, int32_t i2), (mode, i1, i2), draw(0))
+BEFORE(glEvalMesh2, (uint32_t mode, int32_t i1, int32_t i2, int32_t j1, int32_t j2), (mode, i1, i2, j1, j2), draw(0))

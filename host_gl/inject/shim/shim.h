@@ -26,7 +26,16 @@
     X(glMultiDrawElementsIndirect) X(glPopAttrib) X(glLinkProgram) X(glLinkProgramARB) X(glProgramBinary) \
     X(glDeleteProgram) X(glDeleteObjectARB) X(glDeleteFramebuffers) X(glDeleteFramebuffersEXT) \
     X(glXCreateContext) X(glXCreateNewContext) X(glXCreateContextAttribsARB) X(eglCreateContext) \
-    X(eglTerminate) X(eglReleaseThread)
+    X(eglTerminate) X(eglReleaseThread) \
+    X(glDrawArraysInstancedARB) X(glDrawArraysInstancedEXT) X(glDrawElementsInstancedARB) \
+    X(glDrawElementsInstancedEXT) X(glMultiDrawArraysEXT) X(glMultiDrawElementsEXT) \
+    X(glMultiDrawElementsBaseVertex) X(glDrawArraysInstancedBaseInstance) \
+    X(glDrawElementsInstancedBaseInstance) X(glDrawElementsInstancedBaseVertexBaseInstance) \
+    X(glMultiDrawArraysIndirectCount) X(glMultiDrawElementsIndirectCount) X(glDrawTransformFeedback) \
+    X(glDrawTransformFeedbackStream) X(glDrawTransformFeedbackInstanced) \
+    X(glDrawTransformFeedbackStreamInstanced) X(glRectd) X(glRectdv) X(glRectf) X(glRectfv) X(glRecti) \
+    X(glRectiv) X(glRects) X(glRectsv) X(glBitmap) X(glDrawPixels) X(glCopyPixels) X(glEvalMesh1) \
+    X(glEvalMesh2)
 /* clang-format on */
 
 #define SHIM_ENUMERATE(name) HOOK_##name,

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: MIT
- * A small program of the kind that `sluice inject` is for: it knows nothing of Sluice. It draws a room in perspective and a
- * bar over it in orthographic projection, and prints a hash of what stands in its window after every frame.
+ * A small program of the kind that `sluice inject` is for: it knows nothing of Sluice. It draws a room in perspective
+ * and a bar over it in orthographic projection, and prints a hash of what stands in its window after every frame.
  *
  * Usage: gl_target API ROUTE [WORD...]
  *   API    glx, egl          ROUTE  symbol, proc (GetProcAddress), dlsym
  *   frames=N (4)  depth=N (24)  samples=N (0)  core  (a core profile with a shader of its own)
- *   resize  (in the middle)  destroy  (the context in the middle of a frame, then another one)  second  (another context in
- *   another window, turn by turn)  raise=N (ends by that signal)  code=N (exits with it)  quiet (no hash)  child=COMMAND */
+ *   resize  (in the middle)  destroy  (the context in the middle of a frame, then another one)  second  (another
+ * context in another window, turn by turn)  raise=N (ends by that signal)  code=N (exits with it)  quiet (no hash)
+ * child=COMMAND bar=HOW (the bar is drawn with rect, rectv, pixels or bitmap) */
 #define _GNU_SOURCE
 #define GL_GLEXT_PROTOTYPES
 #define USE_X11
@@ -28,8 +29,8 @@ typedef void (*Function)(void);
 static struct {
     int egl, core, resize, destroy, second, quiet;
     int frames, depth, samples, raise, code;
-    const char *route, *child;
-} options = {.frames = 4, .depth = 24, .route = "symbol"};
+    const char *route, *child, *bar;
+} options = {.frames = 4, .depth = 24, .route = "symbol", .bar = "array"};
 
 static Display* display;
 static int width = 96, height = 64;
@@ -73,8 +74,17 @@ static void fail(const char* what) {
 }
 
 static void choose_glx(Screen_* s) {
-    const int wanted[] = {GLX_DOUBLEBUFFER, True, GLX_RED_SIZE, 8, GLX_DEPTH_SIZE, options.depth, GLX_STENCIL_SIZE,
-                          options.depth == 24 ? 8 : 0, GLX_SAMPLES, options.samples, None};
+    const int wanted[] = {GLX_DOUBLEBUFFER,
+                          True,
+                          GLX_RED_SIZE,
+                          8,
+                          GLX_DEPTH_SIZE,
+                          options.depth,
+                          GLX_STENCIL_SIZE,
+                          options.depth == 24 ? 8 : 0,
+                          GLX_SAMPLES,
+                          options.samples,
+                          None};
     int count = 0;
     GLXFBConfig* configs = glXChooseFBConfig(display, DefaultScreen(display), wanted, &count);
     if (configs == NULL || count == 0) {
@@ -87,8 +97,8 @@ static void choose_glx(Screen_* s) {
 
 static void choose_egl(Screen_* s) {
     s->egl_display = eglGetDisplay((EGLNativeDisplayType)display);
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_RED_SIZE, 8,
-                             EGL_DEPTH_SIZE, options.depth, EGL_SAMPLES, options.samples, EGL_NONE};
+    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,  EGL_RED_SIZE, 8,
+                             EGL_DEPTH_SIZE,   options.depth,  EGL_SAMPLES,         options.samples, EGL_NONE};
     EGLint count = 0;
     EGLint id = 0;
     if (!eglInitialize(s->egl_display, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API) ||
@@ -101,8 +111,9 @@ static void choose_egl(Screen_* s) {
 }
 
 static void make_context(Screen_* s) {
-    const int core[] = {GLX_CONTEXT_MAJOR_VERSION_ARB, 3, GLX_CONTEXT_MINOR_VERSION_ARB, 3,
-                        GLX_CONTEXT_PROFILE_MASK_ARB, GLX_CONTEXT_CORE_PROFILE_BIT_ARB, None};
+    const int core[] = {
+        GLX_CONTEXT_MAJOR_VERSION_ARB,    3,   GLX_CONTEXT_MINOR_VERSION_ARB, 3, GLX_CONTEXT_PROFILE_MASK_ARB,
+        GLX_CONTEXT_CORE_PROFILE_BIT_ARB, None};
     const EGLint egl_core[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3, EGL_NONE};
     if (options.egl) {
         s->egl = eglCreateContext(s->egl_display, s->egl_config, EGL_NO_CONTEXT, options.core ? egl_core : NULL);
@@ -162,8 +173,29 @@ static void swap(Screen_* s) {
 
 /* ---- the picture ---- */
 
-static const float room[][3] = {{-1, -1, -6}, {1, -1, -6}, {1, 1, -6}, {-1, 1, -6}, {-2, -1, -2}, {2, -1, -2},
-                                {2, -1, -6},  {-2, -1, -6}};
+static const float room[][3] = {{-1, -1, -6}, {1, -1, -6}, {1, 1, -6},  {-1, 1, -6},
+                                {-2, -1, -2}, {2, -1, -2}, {2, -1, -6}, {-2, -1, -6}};
+
+static void draw_bar(void) {
+    static const GLubyte picture[64] = {255, 255, 0, 255, 255, 255, 0, 255};
+    static const GLint low[] = {0, 0}, high[] = {1, 1};
+    glRasterPos2f(0.1F, 0.05F);
+    if (strcmp(options.bar, "rect") == 0) {
+        LOOK_UP(glRectf)(0.1F, 0.05F, 0.9F, 0.15F);
+    } else if (strcmp(options.bar, "rectv") == 0) {
+        LOOK_UP(glRectiv)(low, high);
+    } else if (strcmp(options.bar, "pixels") == 0) {
+        LOOK_UP(glDrawPixels)(4, 4, GL_RGBA, GL_UNSIGNED_BYTE, picture);
+    } else if (strcmp(options.bar, "bitmap") == 0) {
+        LOOK_UP(glBitmap)(8, 8, 0, 0, 8, 0, picture);
+    } else {
+        const float bar[] = {0.1F, 0.05F, 0.9F, 0.05F, 0.9F, 0.15F, 0.1F, 0.15F};
+        glEnableClientState(GL_VERTEX_ARRAY);
+        glVertexPointer(2, GL_FLOAT, 0, bar);
+        LOOK_UP(glDrawArrays)(GL_QUADS, 0, 4);
+        glDisableClientState(GL_VERTEX_ARRAY);
+    }
+}
 
 static void draw_fixed(int frame) {
     LOOK_UP(glMatrixMode)(GL_PROJECTION);
@@ -189,11 +221,7 @@ static void draw_fixed(int frame) {
     LOOK_UP(glLoadIdentity)();
     glDisable(GL_DEPTH_TEST);
     glColor3f(1, 1, 0);
-    const float bar[] = {0.1F, 0.05F, 0.9F, 0.05F, 0.9F, 0.15F, 0.1F, 0.15F};
-    glEnableClientState(GL_VERTEX_ARRAY);
-    glVertexPointer(2, GL_FLOAT, 0, bar);
-    LOOK_UP(glDrawArrays)(GL_QUADS, 0, 4);
-    glDisableClientState(GL_VERTEX_ARRAY);
+    draw_bar();
 }
 
 static GLuint shader(GLenum kind, const char* text) {
@@ -215,10 +243,12 @@ static GLuint program(const char* vertex) {
 static void draw_core(int frame) {
     static GLuint world, overlay, array, buffer;
     if (world == 0) {
-        world = program("#version 330\nuniform mat4 mvp;in vec3 at;out vec3 tint;"
-                        "void main(){gl_Position=mvp*vec4(at,1);tint=fract(at*0.3);}");
-        overlay = program("#version 330\nin vec3 at;out vec3 tint;"
-                          "void main(){gl_Position=vec4(at.xy*0.3-0.5,0,1);tint=vec3(1,1,0);}");
+        world = program(
+            "#version 330\nuniform mat4 mvp;in vec3 at;out vec3 tint;"
+            "void main(){gl_Position=mvp*vec4(at,1);tint=fract(at*0.3);}");
+        overlay = program(
+            "#version 330\nin vec3 at;out vec3 tint;"
+            "void main(){gl_Position=vec4(at.xy*0.3-0.5,0,1);tint=vec3(1,1,0);}");
         glGenVertexArrays(1, &array);
         glGenBuffers(1, &buffer);
     }
@@ -298,6 +328,7 @@ static void read_options(int argc, char** argv) {
         (void)sscanf(word, "samples=%d", &options.samples);
         (void)sscanf(word, "raise=%d", &options.raise);
         (void)sscanf(word, "code=%d", &options.code);
+        options.bar = strncmp(word, "bar=", 4) == 0 ? word + 4 : options.bar;
         options.core |= strcmp(word, "core") == 0;
         options.resize |= strcmp(word, "resize") == 0;
         options.destroy |= strcmp(word, "destroy") == 0;
