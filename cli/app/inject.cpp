@@ -16,7 +16,9 @@
 
 #include "app/exit_codes.hpp"
 #include "app/log.hpp"
+#include "app/output_folders.hpp"
 #include "app/plugin_path.hpp"
+#include "image/atomic_file.hpp"
 
 namespace sluice::cli {
 
@@ -120,8 +122,13 @@ int runAndReport(const InjectOptions& options, const std::string& folder) {
     int status = 0;
     while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
-    fmt::print("{}", injectReport(folder, options.json));
-    (void)std::fflush(stdout);
+    const std::string text = injectReport(folder, options.json);
+    if (options.report_to.empty()) {
+        fmt::print("{}", text);
+        (void)std::fflush(stdout);
+    } else if (const Status written = writeTextFile(options.report_to, text); !written) {
+        logError(written.error());
+    }
     if (WIFSIGNALED(status)) {
         // Ends as the program did, so that a shell sees the same; without a core of its own.
         (void)std::signal(WTERMSIG(status), SIG_DFL);
@@ -176,6 +183,14 @@ int inject(const InjectOptions& options) {
         return settings.error().code == SLUICE_ERROR_UNSUPPORTED ? kExitNoFluid : kExitBadInput;
     }
     warnOfScript(options);
+    OutputFolders outputs;
+    if (!options.report_to.empty()) {
+        // Known before the program starts, which may run for hours.
+        if (Status status = outputs.prepare(options.report_to); !status) {
+            logError(status.error());
+            return kExitInternal;
+        }
+    }
     if (!options.report) {
         setEnvironment(settings.value());
         start(options);

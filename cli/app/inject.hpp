@@ -17,6 +17,7 @@ namespace sluice::cli {
 
 struct InjectOptions {
     std::string scene, profile, plugin;
+    std::string report_to;  ///< a file; empty: stdout
     bool report = false, json = false, off = false, children = false, same_process = false;
     double step_s = 0.0;
     std::vector<std::string> command;

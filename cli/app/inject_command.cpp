@@ -13,6 +13,9 @@ void addInjectCommand(CLI::App& app, InjectOptions& options, std::function<int()
     c.add_option("--scene", o.scene, "scene whose water, look and sky are taken")->type_name("FILE");
     c.add_option("--profile", o.profile, "what is known of the program (docs/inject.md)")->type_name("FILE");
     auto* report = c.add_flag("--report", o.report, "print at the end what was seen in the program");
+    c.add_option("--report-to", o.report_to, "the report into this file, apart from what the\nprogram prints")
+        ->type_name("FILE")
+        ->needs(report);
     c.add_flag("--json", o.json, "the report as JSON")->needs(report);
     c.add_flag("--off", o.off, "no fluid: watch only");
     c.add_flag("--children", o.children, "processes that the program starts get it, too");

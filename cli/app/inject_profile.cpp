@@ -90,6 +90,7 @@ void readWater(scene::ObjectReader& from, inject::WaterPlan& water) {
         b.numbers("low", block.low, scene::kAnyLength);
         b.numbers("high", block.high, scene::kAnyLength);
         b.numbers("velocity", block.velocity, scene::Range{-100.0, 100.0});
+        b.mayLack("velocity");
     });
     std::vector<scene::Emitter> emitters;
     from.list("emitters", emitters, [](scene::ObjectReader& e, scene::Emitter& emitter) { visitEmitter(e, emitter); });
@@ -135,12 +136,12 @@ Status readProfile(const std::string& path, inject::Settings& settings) {
     if (!file) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, path, "cannot be read", "give the path of a profile"};
     }
-    const nlohmann::json document = nlohmann::json::parse(text, nullptr, false, true);
-    if (!document.is_object()) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, path, "is not a JSON object", "docs/inject.md has the schema"};
+    const Result<nlohmann::json> document = scene::parseObject(text, path, "docs/inject.md has the schema");
+    if (!document) {
+        return document.error();
     }
     std::optional<Error> failure;
-    scene::ObjectReader profile(document, "", path, failure);
+    scene::ObjectReader profile(document.value(), "", path, failure);
     std::string program;
     profile.text("program", program);  // for people
     readRule(profile, "overlay", settings.rules.overlay, kOverlays);

@@ -43,7 +43,8 @@ FormatProbe probeFormat(const FormatInfo& format, const ProbeResult& result, con
     probe.vk_exportable = has(result.vk->exportable_formats, format.format);
     probe.vk_storage = has(result.vk->storage_formats, format.format);
     probe.vk_blendable = has(result.vk->blendable_formats, format.format);
-    if (!probe.gl_texture || !probe.vk_exportable) {
+    // Without the means of sharing at all, every format would fail for the one reason that negotiation gives.
+    if (!probe.gl_texture || !probe.vk_exportable || result.gl.has_memory_object_fd == 0) {
         return probe;
     }
     for (const scene::Size size : kSizes) {

@@ -48,8 +48,11 @@ int main(int argc, char** argv) {
     if (argc != 4 || std::strcmp(argv[1], "--parent") != 0) {
         return fail("usage", "a host starts this program, as sluice render --isolate does");
     }
-    // Ctrl-C goes to the whole group of processes. The host takes it, finishes its file and then closes the channel.
-    (void)std::signal(SIGINT, SIG_IGN);
+    // What a terminal, timeout(1) or a service manager sends goes to the whole group of processes. The host takes it, or
+    // ignores it, finishes its file and then closes the channel; this process ends with it either way.
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
+        (void)std::signal(signal, SIG_IGN);
+    }
     try {
         return sluice::isolate::endWithHost(argv[2]) ? run(argv[3]) : 1;
     } catch (const std::exception& thrown) {

@@ -64,7 +64,7 @@ std::string sides(const ProbeResult& probe) {
                             uuidText(vk.driver_uuid));
         text += fmt::format("          {} queue families, {} queues\n", vk.queue_families, vk.queues);
         text +=
-            fmt::format("verdict   {}\n", probe.same_device ? "one device and one driver: memory can be shared"
+            fmt::format("devices   {}\n", probe.same_device ? "one device and one driver on both sides"
                                                             : "different devices or drivers: nothing can be shared");
     }
     std::vector<std::vector<std::string>> rows{{"ability", "side", "there"}};
@@ -79,20 +79,35 @@ std::string sides(const ProbeResult& probe) {
     return text + "\n" + formatTable(rows, {});
 }
 
+/// The number of `why` among those seen so far: one missing ability fails every format with the same words.
+std::size_t noteOf(std::vector<std::string>& notes, const std::string& why) {
+    const auto at = std::find(notes.begin(), notes.end(), why);
+    const auto index = static_cast<std::size_t>(at - notes.begin());
+    if (at == notes.end()) {
+        notes.push_back(why);
+    }
+    return index + 1;
+}
+
 std::string formatsTable(const ProbeResult& probe) {
+    std::vector<std::string> notes;
     std::vector<std::vector<std::string>> rows{
         {"format", "GL texture", "GL attachment", "VK export", "VK storage", "VK blend", "canary VK->GL->VK"}};
     for (const FormatProbe& format : probe.formats) {
         std::string canary;
         for (const CanaryTrial& trial : format.canaries) {
             canary += fmt::format("{}{}x{} {}", canary.empty() ? "" : ", ", trial.width, trial.height,
-                                  trial.passed ? "equal" : "FAILED: " + trial.why);
+                                  trial.passed ? "equal" : fmt::format("FAILED [{}]", noteOf(notes, trial.why)));
         }
         rows.push_back({std::string(findFormat(format.format)->name), yes(format.gl_texture), yes(format.gl_attachment),
                         yes(format.vk_exportable), yes(format.vk_storage), yes(format.vk_blendable),
                         canary.empty() ? "not tried" : canary});
     }
-    return formatTable(rows, {});
+    std::string text = formatTable(rows, {});
+    for (std::size_t i = 0; i < notes.size(); ++i) {
+        text += fmt::format("[{}] {}\n", i + 1, notes[i]);
+    }
+    return text;
 }
 
 std::string timelinesTable(const ProbeResult& probe) {
@@ -204,7 +219,7 @@ std::string probeText(const ProbeResult& probe) {
     if (!probe.gl_device_note.empty()) {
         text += fmt::format("note      {}\n", probe.gl_device_note);
     }
-    text += probe.possible() ? "GL and Vulkan can share images here.\n" : "GL and Vulkan cannot share images here.\n";
+    text += fmt::format("verdict   GL and Vulkan {} share images here.\n", probe.possible() ? "can" : "cannot");
     text += "\nEGL devices\n";
     for (const std::string& device : probe.egl_devices) {
         text += fmt::format("  {}\n", device);

@@ -124,6 +124,9 @@ void visitEmitter(Visitor& v, Emitter& e) {
     v.number("rate", e.rate, Range{0.0, 1.0e9});
     v.number("start", e.start, Range{0.0, 1.0e6});
     v.number("stop", e.stop, Range{0.0, 1.0e6});
+    for (const char* has_default : {"rate", "start", "stop"}) {
+        v.mayLack(has_default);
+    }
 }
 
 template <typename Visitor>
@@ -204,6 +207,7 @@ void visitSimulation(Visitor& v, Simulation& s) {
         o.numbers("velocity", box.velocity, Range{-1.0e4, 1.0e4});
         o.integer("fluid", box.fluid, 0, kMostFluids - 1);
         o.mayLack("fluid");
+        o.mayLack("velocity");
     });
     v.list("fluids", s.fluids, [](auto& o, FluidKind& fluid) {
         o.number("density", fluid.density, Range{0.001, 1000.0});

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -13,19 +12,6 @@
 
 namespace sluice::scene {
 namespace {
-
-/// nlohmann's messages start with "[json.exception...] "; the rest says line, column and what was found.
-/// They quote the whole of a bad token, however long, so the middle is left out of a long one.
-std::string withoutTag(const std::string& message) {
-    constexpr std::size_t kHead = 160;
-    constexpr std::size_t kTail = 80;
-    const std::size_t end = message.find("] ");
-    std::string text = end == std::string::npos ? message : message.substr(end + 2);
-    if (text.size() <= kHead + kTail) {
-        return text;
-    }
-    return text.substr(0, kHead) + " ... " + text.substr(text.size() - kTail);
-}
 
 double length(const Vec3& v) {
     return std::hypot(static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2]));
@@ -214,18 +200,11 @@ void checkSimulation(ObjectReader& reader, const Simulation& s) {
 }  // namespace
 
 Result<Scene> parseScene(std::string_view text, const std::string& name) {
-    nlohmann::json document;
-    try {
-        document = nlohmann::json::parse(text.begin(), text.end(), nullptr, true, true);
-    } catch (const std::exception& failure) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
-                     fmt::format("not a JSON document: {}", withoutTag(failure.what())), "docs/cli.md has the schema"};
+    const Result<nlohmann::json> read = parseObject(text, name, "docs/cli.md has the schema");
+    if (!read) {
+        return read.error();
     }
-    if (!document.is_object()) {
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
-                     fmt::format("expected a JSON object, found a JSON {}", document.type_name()),
-                     "docs/cli.md has the schema"};
-    }
+    const nlohmann::json& document = read.value();
     Scene scene;
     std::optional<Error> failure;
     ObjectReader reader(document, "", name, failure);

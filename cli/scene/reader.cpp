@@ -6,11 +6,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 
 #include "nearest.hpp"
 
 namespace sluice::scene {
 namespace {
+
+/// nlohmann's messages start with "[json.exception...] "; the rest says line, column and what was found.
+/// They quote the whole of a bad token, however long, so the middle is left out of a long one.
+std::string withoutTag(const std::string& message) {
+    constexpr std::size_t kHead = 160;
+    constexpr std::size_t kTail = 80;
+    const std::size_t end = message.find("] ");
+    std::string text = end == std::string::npos ? message : message.substr(end + 2);
+    if (text.size() <= kHead + kTail) {
+        return text;
+    }
+    return text.substr(0, kHead) + " ... " + text.substr(text.size() - kTail);
+}
 
 /// A value as the file has it, shortened so that a message stays one line.
 std::string shown(const nlohmann::json& value) {
@@ -37,6 +51,21 @@ std::string shownKey(const std::string& key) {
 }
 
 }  // namespace
+
+Result<nlohmann::json> parseObject(std::string_view text, const std::string& name, const char* remedy) {
+    nlohmann::json document;
+    try {
+        document = nlohmann::json::parse(text.begin(), text.end(), nullptr, true, true);
+    } catch (const std::exception& failure) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
+                     fmt::format("not a JSON document: {}", withoutTag(failure.what())), remedy};
+    }
+    if (!document.is_object()) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, name,
+                     fmt::format("expected a JSON object, found a JSON {}", document.type_name()), remedy};
+    }
+    return document;
+}
 
 std::string Range::text(const char* what) const {
     if (low_open && high >= 1.0e6) {

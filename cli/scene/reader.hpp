@@ -18,6 +18,9 @@
 
 namespace sluice::scene {
 
+/// A file's text, with comments or without, as one object; the error has line and column.
+[[nodiscard]] Result<nlohmann::json> parseObject(std::string_view text, const std::string& name, const char* remedy);
+
 /// Reads one JSON object. All readers of a document share `failure`; after the first failure they do nothing.
 /// Absent keys leave their field as it was, so the field's initial value is its default.
 class ObjectReader {

@@ -41,9 +41,8 @@ Parsed parse(int argc, char** argv) {
     app.footer(kKeys);
     app.add_option("--size", size, "of the window, WxH, 64 to 8192 a side [960x600]");
     const std::map<std::string, Preset> presets{{"dam", Preset::Dam}, {"pool", Preset::Pool}, {"empty", Preset::Empty}};
-    app.add_option("--scene", options.preset, "dam, pool or empty: what fluid there is at the start [dam]")
-        ->transform(CLI::Transformer(presets))
-        ->option_text("NAME");
+    std::string scene = "dam";
+    app.add_option("--scene", scene, "dam, pool or empty: what fluid there is at the start [dam]")->option_text("NAME");
     app.add_option("--radius", options.radius, "of a particle in metres, 0.02 to 0.2 [0.05]")
         ->check(CLI::Range(0.02F, 0.2F));
     app.add_option("--frames", options.frames, "end after so many, of a thirtieth of a second each whatever they take");
@@ -68,6 +67,12 @@ Parsed parse(int argc, char** argv) {
         std::fprintf(stderr, "sluice_window: --size: expected WxH of 64 to 8192 a side, found '%s'\n", size.c_str());
         return {std::nullopt, 1};
     }
+    const auto preset = presets.find(scene);
+    if (preset == presets.end()) {
+        std::fprintf(stderr, "sluice_window: --scene: expected dam, pool or empty, found '%s'\n", scene.c_str());
+        return {std::nullopt, 1};
+    }
+    options.preset = preset->second;
     options.size = *asked;
     options.panel = !hidden;
     return {options, 0};

@@ -422,6 +422,13 @@ TEST(Api, InAProcessOfItsOwn) {
 
     const std::vector<pid_t> children = childrenOfThisProcess();
     ASSERT_EQ(children.size(), 1U);
+    // What goes to the whole group of processes is the engine's to take or to ignore.
+    for (const int signal : {SIGTERM, SIGINT, SIGHUP}) {
+        ASSERT_EQ(::kill(children[0], signal), 0);
+    }
+    EXPECT_EQ(frame(fluid.get(), 1.05), SLUICE_OK) << sluice_last_error(fluid.get());
+    EXPECT_EQ(statisticsOf(fluid.get()).renderers, 1U);
+    EXPECT_EQ(log.lines, std::vector<std::string>{});
     ASSERT_EQ(::kill(children[0], SIGKILL), 0);
     drawRoom();
     const auto without = pixels(screen.name());

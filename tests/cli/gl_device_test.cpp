@@ -6,6 +6,7 @@
 #include <string>
 
 #include "program.hpp"
+#include "report/probe_report.hpp"
 
 namespace sluice::test {
 namespace {
@@ -80,6 +81,43 @@ TEST_F(GlDevice, WithoutDriverFailsByItsIndex) {
     EXPECT_THAT(withCard("probe", card_).out,
                 AllOf(HasSubstr("OpenGL    none: see the problem below\n"), HasSubstr("problem   "),
                       Not(HasSubstr("\nnote ")), Not(HasSubstr("GL_EXT_memory_object"))));
+}
+
+std::size_t occurrences(const std::string& text, const std::string& of) {
+    std::size_t count = 0;
+    for (std::size_t at = text.find(of); at != std::string::npos; at = text.find(of, at + 1)) {
+        ++count;
+    }
+    return count;
+}
+
+TEST(ProbeText, HasOneVerdictAndEachReasonOnce) {
+    cli::ProbeResult probe;
+    probe.gl.renderer[0] = 'x';
+    probe.vk.emplace();
+    probe.same_device = true;
+    for (const SluiceFormat format : {SLUICE_FORMAT_RGBA8, SLUICE_FORMAT_R32F, SLUICE_FORMAT_D32F}) {
+        probe.formats.emplace_back().format = format;
+        probe.formats.back().canaries = {{67, 43, false, "a lack"}, {1283, 717, false, "a lack"}};
+    }
+    const std::string without = cli::probeText(probe);
+    EXPECT_EQ(occurrences(without, "verdict "), 1U) << without;
+    EXPECT_EQ(occurrences(without, " can share"), 0U) << without;
+    EXPECT_EQ(occurrences(without, "a lack"), 1U) << without;
+    EXPECT_EQ(occurrences(without, "FAILED [1]"), 6U) << without;
+    probe.agreement.emplace();
+    EXPECT_THAT(cli::probeText(probe), HasSubstr("verdict   GL and Vulkan can share images here.\n"));
+    probe.vk.reset();
+    probe.agreement.reset();
+    EXPECT_THAT(cli::probeText(probe), HasSubstr("verdict   GL and Vulkan cannot share images here.\n"));
+}
+
+TEST_F(GlDevice, WithoutSharedMemoryOneLineSaysSo) {
+    const Outcome outcome = run("probe", "env MESA_EXTENSION_OVERRIDE=-GL_EXT_memory_object_fd");
+    EXPECT_EQ(outcome.code, 3);
+    EXPECT_THAT(outcome.out, AllOf(HasSubstr("problem   shared memory: GL_EXT_memory_object_fd is missing"),
+                                   HasSubstr("verdict   GL and Vulkan cannot share images here.\n"), HasSubstr("not tried"),
+                                   Not(HasSubstr("FAILED"))));
 }
 
 }  // namespace

@@ -22,6 +22,17 @@ TEST(SceneFile, AnEmptyObjectIsTheDefaults) {
     EXPECT_EQ(scene.value().fluid.refraction, 1U);
 }
 
+TEST(SceneFile, ATapMayLeaveOutWhatZeroMeans) {
+    const Result<Scene> read = parseScene(R"({"simulation": {"emitters": [{"shape": "disc", "centre": [0, 1, 0],
+        "direction": [0, -1, 0], "width": 0.2, "height": 0.2, "speed": 1}]}})",
+                                          "s.json");
+    ASSERT_TRUE(read.ok()) << read.error().message();
+    const Emitter& tap = read.value().simulation.emitters.at(0);
+    EXPECT_EQ(tap.rate, 0.0F);
+    EXPECT_EQ(tap.start, 0.0F);
+    EXPECT_EQ(tap.stop, 0.0F);
+}
+
 TEST(SceneFile, EveryKeyIsRead) {
     const Result<Scene> read = parseScene(R"({
         // comments are allowed
