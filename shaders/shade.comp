@@ -7,6 +7,7 @@
 //          environment map or the procedural sky. Eye space; light is linear until the last line.
 // Outputs: FLUID_COLOUR (sRGB-encoded, not premultiplied, alpha = coverage), FLUID_DEPTH (window depth, 1 = no fluid),
 //          FLUID_NORMAL, FLUID_THICKNESS. An output that the host does not read is a placeholder and not written.
+//          Foam, metres along the ray (reduced resolution), covers the water.
 // Inputs that a specialisation constant switches off are placeholders and not read.
 // Bound of its test: colour 2e-3 (more under a steep highlight), window depth 1e-6, against the formulas in double precision
 // over a flat background. Coverage and the refracted position have no reference; their tests are by property.
@@ -23,6 +24,7 @@ layout(constant_id = 3) const uint REFRACTION = 1u;
 layout(constant_id = 4) const uint REFLECTION = 1u;     // 0 none, 1 procedural sky, 2 map
 layout(constant_id = 5) const uint WRITE_NORMAL = 0u;
 layout(constant_id = 6) const uint WRITE_THICKNESS = 0u;
+layout(constant_id = 7) const uint FOAM = 0u;
 
 layout(set = 0, binding = 2) uniform texture2D depth_in;
 layout(set = 0, binding = 3) uniform texture2D host_depth;
@@ -34,7 +36,11 @@ layout(set = 0, binding = 8) writeonly uniform image2D fluid_colour;
 layout(set = 0, binding = 9) writeonly uniform image2D fluid_depth;
 layout(set = 0, binding = 10) writeonly uniform image2D fluid_normal;
 layout(set = 0, binding = 11) writeonly uniform image2D fluid_thickness;
+layout(set = 0, binding = 12) uniform texture2D foam_in;
 
+const float FOAM_ALBEDO = 0.85;
+// Irradiance over pi by a sun of radiance 1: that of the default sun (60) lights white to 0.8, twice as much as its sky.
+const float FOAM_SUN = 0.013;
 const uint VIEW_FLUID = 0u, VIEW_DEPTH = 1u, VIEW_NORMAL = 2u, VIEW_THICKNESS = 3u;
 
 ivec2 onScreen(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(frame.size.xy) - 1); }
@@ -56,6 +62,34 @@ float thicknessAt(ivec2 texel) {
         weights += value > 0.0 ? w.x * w.y : 0.0;
     }
     return weights > 0.0 ? sum / weights : 0.0;
+}
+
+// Metres of foam along the ray through a texel of the full resolution: bilinear, and where there is none it is none.
+float foamAt(ivec2 texel) {
+    const ivec2 size = textureSize(foam_in, 0);
+    const vec2 at = (vec2(texel) + 0.5) / frame.thickness.x - 0.5;
+    const ivec2 low = ivec2(floor(at));
+    const vec2 f = at - vec2(low);
+    float sum = 0.0;
+    for (int corner = 0; corner < 4; ++corner) {
+        const ivec2 offset = ivec2(corner & 1, corner >> 1);
+        const vec2 w = mix(1.0 - f, f, vec2(offset));
+        sum += w.x * w.y * texelFetch(foam_in, clamp(low + offset, ivec2(0), size - 1), 0).r;
+    }
+    return sum;
+}
+
+// How much the foam of a pixel hides of the water.
+float foamCover(ivec2 texel) {
+    return 1.0 - exp(-uintBitsToFloat(frame.modes.w) * foamAt(texel) / (2.0 * particleRadius()));
+}
+
+// What foam looks like: white that scatters the sky, half of it the horizon's, and the sun, which its bubbles lead round
+// their own shadows (wrapped Lambert).
+vec3 foamLight(vec3 normal) {
+    const vec3 up = normalize(normal * mat3(frame.view) + vec3(0.0, 1.0, 0.0));
+    const float sun = max(0.25 + 0.75 * dot(normal, frame.to_sun.xyz), 0.0);
+    return FOAM_ALBEDO * (0.5 * (skyWithoutSun(up) + frame.horizon.rgb) + sun * FOAM_SUN * frame.sun_radiance.rgb);
 }
 
 // How much of the pixel the outline leaves to the fluid, from the 3x3 texels around it (binomial weights): one pixel of
@@ -173,7 +207,12 @@ void main() {
 
     vec4 colour = vec4(0.0, 0.0, 0.0, 1.0);
     if (VIEW == VIEW_FLUID) {
-        const vec4 shaded = shadeFluid(texel, ray, depth, normal, path);
+        vec4 shaded = shadeFluid(texel, ray, depth, normal, path);
+        if (FOAM != 0u) {
+            const float cover = foamCover(texel);
+            const float alpha = mix(shaded.a, 1.0, cover);
+            shaded = vec4(mix(shaded.rgb * shaded.a, foamLight(normal), cover) / max(alpha, 1.0 / 255.0), alpha);
+        }
         // Half a radius of softness where the surface runs into the scene.
         const float shore = smoothstep(0.0, 0.5 * particleRadius(), to_scene);
         colour = vec4(srgbEncode(shaded.rgb), shaded.a * shore * outlineCoverage(texel));

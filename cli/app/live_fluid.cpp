@@ -203,6 +203,14 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulat
     s.anisotropy = scene.simulation.anisotropy.ratio;
     s.smoothing = scene.simulation.anisotropy.smoothing;
     s.lonely = scene.simulation.anisotropy.lonely;
+    const scene::Foam& foam = scene.simulation.foam;
+    s.foam_life = foam.life;
+    s.foam_air[0] = foam.air_low;
+    s.foam_air[1] = foam.air_high;
+    s.foam_crest[0] = foam.crest_low;
+    s.foam_crest[1] = foam.crest_high;
+    s.foam_energy[0] = foam.energy_low;
+    s.foam_energy[1] = foam.energy_high;
     s.longest_step = std::min(1.0, live.frame_s / scene.simulation.steps_per_frame);
     if (by_depth) {
         s.depth_scale = scene.simulation.depth.scale;

@@ -18,6 +18,9 @@ SluiceSceneNeeds sceneNeeds(const scene::Scene& scene, scene::Size size, std::ui
     if (!simulatesLive(scene) || scene.simulation.anisotropy.ratio == 0.0F) {
         needs.fluid.ellipsoids = 0;
     }
+    if (!simulatesLive(scene) || scene.simulation.foam.life == 0.0F) {
+        needs.fluid.foam = 0.0F;
+    }
     return needs;
 }
 

@@ -78,6 +78,7 @@ void visitFluid(Visitor& v, SluiceFluid& f) {
     v.flag("refraction", f.refraction);
     v.flag("reflection", f.reflection);
     v.flag("ellipsoids", f.ellipsoids);
+    v.number("foam", f.foam, Range{0.0, 1000.0});
     v.choice("view", f.view, kViews);
 }
 
@@ -191,6 +192,15 @@ void visitSimulation(Visitor& v, Simulation& s) {
         o.number("ratio", s.anisotropy.ratio, Range{0.0, 10.0});
         o.number("smoothing", s.anisotropy.smoothing, kUnit);
         o.number("lonely", s.anisotropy.lonely, Range{0.0, 1.0, true});
+    });
+    v.object("foam", [&s](auto& o) {
+        o.number("life", s.foam.life, Range{0.0, 1.0e6});
+        o.number("air_low", s.foam.air_low, Range{0.0, 1.0e6});
+        o.number("air_high", s.foam.air_high, Range{0.0, 1.0e6});
+        o.number("crest_low", s.foam.crest_low, Range{0.0, 1.0e6});
+        o.number("crest_high", s.foam.crest_high, Range{0.0, 1.0e6});
+        o.number("energy_low", s.foam.energy_low, Range{0.0, 1.0e6});
+        o.number("energy_high", s.foam.energy_high, Range{0.0, 1.0e6});
     });
     v.number("jitter", s.jitter, Range{0.0, 0.5});
     v.flag("collide_with_engine", s.collide_with_engine);

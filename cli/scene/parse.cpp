@@ -176,6 +176,15 @@ void checkSimulation(ObjectReader& reader, const Simulation& s) {
     if (const float ratio = s.anisotropy.ratio; ratio != 0.0F && ratio < 1.0F) {
         reader.fail("simulation/anisotropy/ratio", "a number in [1, 10], or 0 for spheres", fmt::format("{}", ratio));
     }
+    const auto above = [&](const char* high_key, float high, float low) {
+        if (!(high > low)) {
+            reader.fail(fmt::format("simulation/foam/{}", high_key),
+                        fmt::format("a number > its low end, which is {}", low), fmt::format("{}", high));
+        }
+    };
+    above("air_high", s.foam.air_high, s.foam.air_low);
+    above("crest_high", s.foam.crest_high, s.foam.crest_low);
+    above("energy_high", s.foam.energy_high, s.foam.energy_low);
     for (std::size_t i = 0; i < s.fluid.size(); ++i) {
         const std::string key = fmt::format("simulation/fluid/{}", i);
         checkBox(reader, key, s.fluid[i].low, s.fluid[i].high);

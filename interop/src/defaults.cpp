@@ -33,6 +33,7 @@ SluiceFluid defaultFluid() {
     fluid.reflection = 1;
     fluid.view = SLUICE_VIEW_FLUID;
     fluid.ellipsoids = 1;  // where a simulation has shaped them
+    fluid.foam = 1.0F;     // where a simulation has made any
     return fluid;
 }
 

@@ -44,11 +44,11 @@ Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& 
     const struct {
         const char* name;
         bool asked;
-    } all[] = {{"emitters", s.emitter_count > 0},   {"drains", s.drain_count > 0},
-               {"fields", s.field_count > 0},       {"bodies", s.body_count > 0},
-               {"meshes", s.mesh_count > 0},        {"tension", s.tension != 0.0F},
-               {"adhesion", s.adhesion != 0.0F},    {"overshoot", s.overshoot != 0.0F},
-               {"depth_scale", s.depth_scale != 0}, {"anisotropy", s.anisotropy != 0.0F}};
+    } all[] = {
+        {"emitters", s.emitter_count > 0},    {"drains", s.drain_count > 0},      {"fields", s.field_count > 0},
+        {"bodies", s.body_count > 0},         {"meshes", s.mesh_count > 0},       {"tension", s.tension != 0.0F},
+        {"adhesion", s.adhesion != 0.0F},     {"overshoot", s.overshoot != 0.0F}, {"depth_scale", s.depth_scale != 0},
+        {"anisotropy", s.anisotropy != 0.0F}, {"foam_life", s.foam_life != 0.0F}};
     for (const auto& [name, asked] : all) {
         if (asked) {
             return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("simulation.{}", name),

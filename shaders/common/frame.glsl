@@ -17,7 +17,7 @@ layout(std140, set = 0, binding = 0) uniform Frame {
     vec4 sun_radiance;
     vec4 filter_widths; // delta, mu, sigma; w = cap in pixels
     vec4 thickness;     // pixels per thickness texel; sigma of the blur; chord weight; depth below which no point is wide enough
-    uvec4 modes;        // x = encoding of HOST_DEPTH, y = particles, z = bits of the longest axis of a splat in splat radii
+    uvec4 modes;        // x = encoding of HOST_DEPTH, y = particles, z = bits of the longest axis of a splat in splat radii, w = bits of SluiceFluid::foam
 } frame;
 
 // The depth of "nothing here". Every real depth is far below it.

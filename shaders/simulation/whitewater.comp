@@ -4,7 +4,7 @@
 // Where water turns white (Ihmsen et al. 2012, section 3.1): how much air each particle traps, how much of a breaking crest it
 // is, and how much energy it has, each from 0 to 1. docs/simulation.md has the formulas.
 // Inputs:  the particles of the last step in sorted order with their lists, surface.comp's normals, velocities; behind them
-//          those that were born at its end. Output: three floats for each place.
+//          those that were born at its end. Output: four floats for each place.
 // Bound of its test: 1e-4 of each.
 #include "places.glsl"
 #include "simulation.glsl"
@@ -25,7 +25,7 @@ layout(std430, set = 0, binding = 4) readonly buffer ListCount { uint list_count
 layout(std430, set = 0, binding = 5) readonly buffer Positions { vec4 position[]; };
 layout(std430, set = 0, binding = 6) readonly buffer Velocities { vec4 velocity[]; };
 layout(std430, set = 0, binding = 7) readonly buffer Identities { uint identity[]; };
-layout(std430, set = 0, binding = 8) writeonly buffer Potentials { float potential[]; };
+layout(std430, set = 0, binding = 8) writeonly buffer Potentials { vec4 potential[]; };
 layout(std430, set = 0, binding = 9) readonly buffer Marks { uint marks[]; };
 layout(std430, set = 0, binding = 10) readonly buffer Before { uint before[]; };
 
@@ -73,7 +73,7 @@ void main() {
     if (push.placed != 0u) {
         place = placeOf(marks[place >> 5], before[place >> 5], place);
     }
-    potential[3u * place] = part(air, push.air);
-    potential[3u * place + 1u] = forward ? part(crest * n.w, push.crest) : 0.0;
-    potential[3u * place + 2u] = part(0.5 * speed * speed, push.energy);
+    const vec3 parts = vec3(part(air, push.air), forward ? part(crest * n.w, push.crest) : 0.0,
+                            part(0.5 * speed * speed, push.energy));
+    potential[place] = vec4(parts, parts.z * min(parts.x + parts.y, 1.0));
 }

@@ -127,7 +127,8 @@ static_assert(offsetof(SluiceFluid, refraction) == 68);
 static_assert(offsetof(SluiceFluid, reflection) == 72);
 static_assert(offsetof(SluiceFluid, view) == 76);
 static_assert(offsetof(SluiceFluid, ellipsoids) == 80);
-static_assert(offsetof(SluiceFluid, reserved) == 84);
+static_assert(offsetof(SluiceFluid, foam) == 84);
+static_assert(offsetof(SluiceFluid, reserved) == 88);
 static_assert(offsetof(SluiceParticles, count) == 4);
 static_assert(offsetof(SluiceParticles, radius) == 8);
 static_assert(offsetof(SluiceParticles, position) == 16);
@@ -157,7 +158,7 @@ static_assert(offsetof(SluiceSimulation, gravity) == 36 && offsetof(SluiceSimula
 static_assert(offsetof(SluiceSimulation, solids) == 88 && offsetof(SluiceSimulation, tension) == 112);
 static_assert(offsetof(SluiceSimulation, emitters) == 144 && offsetof(SluiceSimulation, mesh_indices) == 200);
 static_assert(offsetof(SluiceSimulation, anisotropy) == 224 && offsetof(SluiceSimulation, depth_scale) == 240);
-static_assert(sizeof(SluiceSimulation) == 256);
+static_assert(offsetof(SluiceSimulation, foam_life) == 256 && sizeof(SluiceSimulation) == 288);
 static_assert(sizeof(SluiceEmitter) == 80 && sizeof(SluiceDrain) == 48 && sizeof(SluiceForceField) == 64);
 static_assert(sizeof(SluiceBody) == 96 && sizeof(SluicePathPoint) == 32 && sizeof(SluiceMesh) == 32);
 static_assert(sizeof(SluiceBodyState) == 96 && offsetof(SluiceBodies, bodies) == 16);

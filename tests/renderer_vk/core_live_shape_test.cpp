@@ -91,6 +91,55 @@ TEST_F(LiveShape, HaveThePlacesOfTheirParticlesWhenSomeComeAndGo) {
     EXPECT_LT(different(depths(block, true), spheres), 0.01);
 }
 
+TEST_F(LiveShape, FoamIsDrawnWhereItIsMadeAndAFrameThatAsksForNoneHasItsBits) {
+    Block block;
+    const auto pictures = [&](const Block& of, float foam) {
+        start(of);
+        std::vector<std::vector<std::byte>> out;
+        for (std::uint64_t k = 1; k <= 5; ++k) {
+            EXPECT_EQ(simulate(k, k == 1 ? 0.0 : kFrame), SLUICE_OK) << said.message;
+            SluiceFrame frame = frameOf(k, 2, SLUICE_VIEW_FLUID);
+            frame.simulation = k;
+            frame.fluid.foam = foam;
+            EXPECT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
+            EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value), SLUICE_OK);
+            EXPECT_EQ(api().timeline_wait(renderer->get(), k, kLong), SLUICE_OK);
+            EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value + 1), SLUICE_OK);
+            out.push_back(host->texels(SLUICE_IMAGE_FLUID_COLOUR, frame.image_set));
+        }
+        EXPECT_EQ(stats().failed, 0U) << stats().message;
+        EXPECT_EQ(frameStats(5).validation_messages, 0U);
+        return out;
+    };
+    const auto passes = [&] {
+        std::string names;
+        const SluiceFrameStats found = frameStats(5);
+        for (std::uint32_t i = 0; i < found.pass_count; ++i) {
+            names += std::string(&found.passes[i].name[0]) + " ";
+        }
+        return names;
+    };
+    const auto clear = pictures(block, 1.0F);
+    EXPECT_THAT(passes(), ::testing::Not(HasSubstr("splat_foam"))) << "none is made";
+    block.simulation.foam_life = 0.5F;
+    block.simulation.foam_air[1] = block.simulation.foam_energy[1] = 0.01F;
+    EXPECT_EQ(pictures(block, 0.0F), clear);
+    EXPECT_THAT(passes(), ::testing::Not(HasSubstr("splat_foam"))) << "none is asked for";
+    const auto white = pictures(block, 1.0F);
+    EXPECT_THAT(passes(), HasSubstr("splat_foam"));
+    EXPECT_EQ(white[0], clear[0]) << "nothing has moved yet";
+    EXPECT_NE(white[4], clear[4]);
+    for (const float life : {-1.0F, std::nanf("")}) {
+        block.simulation.foam_life = life;
+        EXPECT_EQ(api().set_simulation(renderer->get(), &block.simulation, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+        EXPECT_THAT(said.message, HasSubstr("foam_life"));
+    }
+    block.simulation.foam_life = 1.0F;
+    block.simulation.foam_crest[0] = 3.0F;
+    EXPECT_EQ(api().set_simulation(renderer->get(), &block.simulation, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(said.message, HasSubstr("3 to 0 is no range"));
+}
+
 TEST_F(LiveShape, OfARatioThatIsNoneAreRefused) {
     Block block;
     ASSERT_NO_FATAL_FAILURE(start(block));

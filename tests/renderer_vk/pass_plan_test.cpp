@@ -184,6 +184,7 @@ TEST(PassPlan, RefusesNumbersOutOfRangeAndNamesThem) {
     refused([](auto& n) { n.fluid.index_of_refraction = 0.9F; }, "index_of_refraction");
     refused([](auto& n) { n.fluid.absorption[1] = -1.0F; }, "absorption[1]");
     refused([](auto& n) { n.fluid.thickness_scale = 0.3F; }, "thickness_scale");
+    refused([](auto& n) { n.fluid.foam = std::nanf(""); }, "fluid.foam");
     refused([](auto& n) { n.fluid.filter_max_pixels = kMaxFilterPixels + 1; }, "filter_max_pixels");
     refused([](auto& n) { n.fluid.filter_iterations = kMaxFilterIterations + 1; }, "filter_iterations");
     refused([](auto& n) { n.fluid.filter = 7; }, "filter");

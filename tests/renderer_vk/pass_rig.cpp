@@ -191,6 +191,17 @@ RigResult PassRig::render(const RigScene& scene) {
         return result;
     }
     std::ranges::copy(std::as_bytes(std::span(splats)), particles.value().mapped().begin());
+    std::vector<float> white(std::max<std::size_t>(4 * scene.foam.size(), 4));
+    for (std::size_t i = 0; i < scene.foam.size(); ++i) {
+        white[4 * i + 3] = scene.foam[i];
+    }
+    auto whitewater = Buffer::create(device, {white.size() * sizeof(float), VK_BUFFER_USAGE_STORAGE_BUFFER_BIT,
+                                              BufferPlace::Upload, "rig whitewater"});
+    if (!whitewater) {
+        result.failure = whitewater.error().message();
+        return result;
+    }
+    std::ranges::copy(std::as_bytes(std::span(white)), whitewater.value().mapped().begin());
 
     SluiceFrame frame{};
     frame.struct_size = sizeof frame;
@@ -233,7 +244,7 @@ RigResult PassRig::render(const RigScene& scene) {
         }
         recorded = recorder_->record(commands, frame, result.plan, targets,
                                      {particles.value().buffer(), needs.particle_count, scene.radius, VK_NULL_HANDLE,
-                                      particles.value().buffer(), scene.longest},
+                                      particles.value().buffer(), scene.longest, whitewater.value().buffer()},
                                      timer, capture);
         memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
@@ -269,6 +280,9 @@ RigResult PassRig::render(const RigScene& scene) {
         result.thickness = rig.download<float>(*image);
         result.thickness_width = image->width();
         result.thickness_height = image->height();
+    }
+    if (const Image* image = recorder_->image(PlanImage::Foam)) {
+        result.foam = rig.download<float>(*image);
     }
     result.failure = rig.failure;
     return result;

@@ -33,6 +33,7 @@ inline constexpr SluiceFluid kWater{
     .reflection = 1,
     .view = SLUICE_VIEW_FLUID,
     .ellipsoids = 0,
+    .foam = 0.0F,
     .reserved = {},
 };
 
@@ -42,6 +43,7 @@ struct RigScene {
     std::vector<float> positions;   ///< triples
     std::vector<float> ellipsoids;  ///< nine floats each, in place of positions; or empty
     float longest = 1.0F;           ///< of their axes
+    std::vector<float> foam;        ///< of each particle, 0 to 1; or empty
     float radius = 0.05F;
     SluiceCamera camera{};
     SluiceSky sky{};
@@ -65,6 +67,7 @@ struct RigResult {
     std::vector<std::array<float, 4>> normal;  ///< decoded from half floats
     std::vector<float> thickness;              ///< metres, reduced resolution
     std::uint32_t thickness_width = 0, thickness_height = 0;
+    std::vector<float> foam;                                   ///< metres, at the resolution of thickness
     std::vector<float> captured;                               ///< DepthHeader and depths
     std::vector<std::pair<std::string, double>> milliseconds;  ///< per pass, where the device has timestamps
     std::string failure;                                       ///< empty on success

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "live/foam_age.hpp"
 #include "reference/simulation_terms.hpp"
 #include "simulation_rig.hpp"
 
@@ -113,9 +114,13 @@ TEST_F(SimulationWhitewater, OfACrestThatFallsIntoWaterIsTheDoublePrecisionRefer
                 ++skipped;
                 continue;
             }
-            off.at(k) = std::max(off.at(k), std::abs(double{found[3 * i + k]} - expected.potential.at(k)));
+            off.at(k) =
+                std::max(off.at(k), std::abs(double{found[kWhitewaterFloats * i + k]} - expected.potential.at(k)));
             between.at(k) += expected.potential.at(k) > 0.0 && expected.potential.at(k) < 1.0 ? 1U : 0U;
         }
+    }
+    for (std::size_t i = 0; i < found.size(); i += kWhitewaterFloats) {
+        ASSERT_EQ(found[i + 3], found[i + 2] * std::min(found[i] + found[i + 1], 1.0F));
     }
     for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_LT(off.at(k), 1e-4) << k;
@@ -137,15 +142,61 @@ TEST_F(SimulationWhitewater, OfAFluidThatMovesAsOneIsItsEnergyAloneAndWrongRange
     const auto solver = make(settings, positions, velocities);
     ASSERT_TRUE(solver->step(1.0 / 1024.0).ok());
     const std::vector<float> found = potentials(*solver, {}, positions.size() / 3);
-    for (std::size_t i = 0; i < found.size(); i += 3) {
+    for (std::size_t i = 0; i < found.size(); i += kWhitewaterFloats) {
         ASSERT_EQ(found[i], 0.0F);
         ASSERT_NEAR(found[i + 2], (18.0 - 5.0) / 45.0, 1e-3);
+        ASSERT_EQ(found[i + 3], 0.0F) << "no air, no crest: nothing turns white";
     }
     Whitewater wrong;
     wrong.crest = {3.0F, 3.0F};
     const Status status = solver->whitewater(wrong, VK_NULL_HANDLE);
     ASSERT_FALSE(status.ok());
     EXPECT_THAT(status.error().message(), HasSubstr("3 to 3 is no range"));
+}
+
+TEST_F(SimulationWhitewater, FoamIsWhatTurnsWhiteNowOrWhatIsLeftOfIt) {
+    SimulationSettings settings;
+    settings.radius = 0.02F;
+    settings.low = {0, 0, 0};
+    settings.high = {0.8F, 1, 0.6F};
+    const std::vector<float> positions = lattice({0.1F, 0.05F, 0.1F}, 6, 6, 6, 0.04F, 0.008F, 4);
+    Dice dice(6);
+    std::vector<float> velocities;
+    for (std::size_t i = 0; i < positions.size(); i += 3) {
+        velocities.insert(velocities.end(), {dice.between(-2, 2), dice.between(-2, 2), dice.between(-2, 2)});
+    }
+    const auto solver = make(settings, positions, velocities);
+    const Whitewater how{{0.1F, 10.0F}, {0.1F, 3.0F}, {0.05F, 2.0F}};
+    const std::size_t floats = kWhitewaterFloats * positions.size() / 3;
+    const auto age = FoamAge::create(device()).value();
+    std::vector<double> expected(positions.size() / 3);
+    const float kept = 0.75F;
+    std::size_t faded = 0;
+    for (int step = 0; step < 6; ++step) {
+        ASSERT_TRUE(solver->step(1.0 / 128.0).ok());
+        const std::vector<float> now = potentials(*solver, how, positions.size() / 3);
+        const std::vector<float> found = filled(floats, -1.0F, [&](VkBuffer to) {
+            const Status made = solver->whitewater(how, to);
+            return made ? age->age(solver->onDevice(), to, {}, kept) : made;
+        });
+        for (std::size_t i = 0; i < expected.size(); ++i) {
+            const auto turns = double{now[kWhitewaterFloats * i + 3]};
+            faded += expected[i] * double{kept} > turns ? 1U : 0U;
+            expected[i] = std::max(turns, expected[i] * double{kept});
+            ASSERT_NEAR(double{found[kWhitewaterFloats * i + 3]}, expected[i], 1e-6);
+            ASSERT_EQ(found[kWhitewaterFloats * i], now[kWhitewaterFloats * i]);
+        }
+    }
+    EXPECT_GT(faded, 50U);
+    EXPECT_GT(*std::max_element(expected.begin(), expected.end()), 0.01);
+    age->forget();
+    const std::vector<float> now = potentials(*solver, how, positions.size() / 3);
+    EXPECT_EQ(filled(floats, -1.0F,
+                     [&](VkBuffer to) {
+                         const Status made = solver->whitewater(how, to);
+                         return made ? age->age(solver->onDevice(), to, {}, kept) : made;
+                     }),
+              now);
 }
 
 }  // namespace

@@ -326,7 +326,10 @@ typedef struct SluiceFluid {
     uint32_t reflection;        /* 0: no environment is sampled */
     uint32_t view;              /* SluiceView */
     uint32_t ellipsoids;        /* since ABI 1.2: 1: what a simulation shaped is drawn so, see its anisotropy */
-    uint32_t reserved[7];       /* zero */
+    /* Since ABI 1.2: how much the foam of a simulation (see its foam_life) hides: a particle's diameter of it lets
+     * exp(-foam) of the water through; 0: it is not drawn. */
+    float foam;
+    uint32_t reserved[6]; /* zero */
 } SluiceFluid;
 
 /* A particle set on the CPU. Arrays are tightly packed float triples in world metres; velocity and colour may be NULL.
@@ -521,6 +524,13 @@ typedef struct SluiceSimulation {
     uint32_t depth_lag; /* 1..frames_in_flight; 0: frames_in_flight, with which the simulation runs beside the frames */
     float depth_thickness;   /* metres behind what is seen that are solid; 0: eight radii */
     uint32_t depth_reserved; /* zero */
+    /* Where the water turns white (Ihmsen et al. 2012), for frames with SluiceFluid::foam. Each pair: from where a
+     * potential counts, and from where it is 1; 0, 0: the default. */
+    float foam_life;        /* seconds after which half of a particle's foam is left; 0: there is none */
+    float foam_air[2];      /* trapped air, m/s summed over neighbours; 5, 20 */
+    float foam_crest[2];    /* curvature of a breaking crest, summed over neighbours; 2, 8 */
+    float foam_energy[2];   /* half the square of the speed, m^2/s^2; 5, 50 */
+    uint32_t foam_reserved; /* zero */
 } SluiceSimulation;
 
 typedef struct SluiceSimulationStats {

@@ -32,6 +32,7 @@ struct ParticleBuffers {
     VkBuffer draw = VK_NULL_HANDLE;        ///< may be none; a VkDrawIndirectCommand of a vertex for each particle
     VkBuffer ellipsoids = VK_NULL_HANDLE;  ///< kEllipsoidFloats each, of plans with ellipsoids
     float longest = 1.0F;                  ///< of their axes, in splat radii
+    VkBuffer whitewater = VK_NULL_HANDLE;  ///< kWhitewaterFloats each, of plans with foam
 };
 
 /// What the depth buffer of the frame's camera is captured into; `into` empty: it is not.

@@ -45,6 +45,7 @@ LiveSimulation::LiveSimulation(const RendererTimeline& timeline, const Tracer& t
       longest_step_(setup.longest_step),
       most_particles_(setup.most_particles),
       shaped_(setup.anisotropy.has_value()),
+      foams_(setup.foam.has_value()),
       settings_(setup.settings),
       reports_(setup.frames_in_flight + 1, startsOf(setup.settings.bodies)),
       depth_scale_(setup.depth_scale),
@@ -85,7 +86,7 @@ Status LiveSimulation::start(const LiveSetup& setup) {
         return status;
     }
     Result<std::unique_ptr<OutputSlots>> slots = OutputSlots::create(
-        *device_, setup.frames_in_flight + 1, most_particles_, setup.settings.radius, setup.anisotropy);
+        *device_, setup.frames_in_flight + 1, most_particles_, setup.settings.radius, setup.anisotropy, setup.foam);
     if (!slots) {
         return slots.error();
     }
@@ -471,7 +472,7 @@ Status LiveSimulation::publish(std::uint64_t value) {
     signal.semaphore = semaphore_;
     signal.value = value;
     signal.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    if (Status status = slots_->shape(*solver_, value); !status) {
+    if (Status status = slots_->look(*solver_, value); !status) {
         return status;
     }
     const DeviceParticles state = solver_->onDevice();

@@ -39,6 +39,7 @@ struct LiveSetup {
     std::uint32_t frames_in_flight = 1;
     std::uint32_t most_particles = 0;  ///< that there will ever be; room of the output slots
     std::optional<Anisotropy> anisotropy;
+    std::optional<FoamSettings> foam;
     std::uint32_t depth_scale = 0;  ///< as SluiceSimulation has it; not 0: with settings.seen
     std::uint32_t depth_lag = 1;
     float depth_thickness = 0.0F;  ///< m
@@ -105,6 +106,8 @@ class LiveSimulation {
     [[nodiscard]] const OutputSlots& slots() const { return *slots_; }
     /// Its particles are ellipsoids.
     [[nodiscard]] bool shaped() const { return shaped_; }
+    /// They carry foam.
+    [[nodiscard]] bool foams() const { return foams_; }
 
     /// No more values: the thread ends after the step under way, and every value that was asked for is signalled, so
     /// that no frame waits for ever. Does not wait.
@@ -151,7 +154,7 @@ class LiveSimulation {
     std::unique_ptr<Device> device_;  ///< a view, with the simulation's queue
     double longest_step_;
     std::uint32_t most_particles_;
-    bool shaped_;
+    bool shaped_, foams_;
     SimulationSettings settings_;  ///< as they were given
     BodyReports reports_;
     VkSemaphore semaphore_ = VK_NULL_HANDLE;

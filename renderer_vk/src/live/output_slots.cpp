@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 #include <shaders/publish_comp.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "device/commands.hpp"
@@ -40,14 +42,19 @@ Result<Buffer> makeFloats(const Device& device, std::uint32_t particles, std::si
 
 Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, std::uint32_t slots,
                                                          std::uint32_t particles, float radius,
-                                                         const std::optional<Anisotropy>& anisotropy) {
+                                                         const std::optional<Anisotropy>& anisotropy,
+                                                         const std::optional<FoamSettings>& foam) {
     if (Status status = anisotropy ? checkAnisotropy(*anisotropy) : Status{}; !status) {
+        return status.error();
+    }
+    if (Status status = foam ? checkWhitewater(foam->ranges) : Status{}; !status) {
         return status.error();
     }
     auto made = std::make_unique<OutputSlots>(device);
     made->particles_ = particles;
     made->radius_ = radius;
     made->anisotropy_ = anisotropy;
+    made->foam_ = foam;
     for (std::uint32_t i = 0; i < slots; ++i) {
         Result<Buffer> position = makeFloats(device, particles, 3, "simulated positions");
         if (!position) {
@@ -71,8 +78,16 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
             }
             ellipsoids = std::move(shapes).value();
         }
-        made->slots_.push_back(
-            {std::move(position).value(), std::move(velocity).value(), std::move(draw).value(), std::move(ellipsoids)});
+        Buffer whitewater;
+        if (foam) {
+            Result<Buffer> white = makeFloats(device, particles, kWhitewaterFloats, "simulated whitewater");
+            if (!white) {
+                return white.error();
+            }
+            whitewater = std::move(white).value();
+        }
+        made->slots_.push_back({std::move(position).value(), std::move(velocity).value(), std::move(draw).value(),
+                                std::move(ellipsoids), std::move(whitewater)});
     }
     // A frame that is told not to wait (a fault of tests) shall read what is defined.
     const Status cleared = runOnce(device, [&](VkCommandBuffer commands) {
@@ -80,8 +95,10 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
             device.fn.vkCmdFillBuffer(commands, slot.position.buffer(), 0, VK_WHOLE_SIZE, 0);
             device.fn.vkCmdFillBuffer(commands, slot.velocity.buffer(), 0, VK_WHOLE_SIZE, 0);
             device.fn.vkCmdFillBuffer(commands, slot.draw.buffer(), 0, VK_WHOLE_SIZE, 0);
-            if (slot.ellipsoids) {
-                device.fn.vkCmdFillBuffer(commands, slot.ellipsoids.buffer(), 0, VK_WHOLE_SIZE, 0);
+            for (const Buffer* more : {&slot.ellipsoids, &slot.whitewater}) {
+                if (*more) {
+                    device.fn.vkCmdFillBuffer(commands, more->buffer(), 0, VK_WHOLE_SIZE, 0);
+                }
             }
         }
     });
@@ -100,6 +117,13 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
         return places.error();
     }
     made->places_ = std::move(places).value();
+    if (foam) {
+        Result<std::unique_ptr<FoamAge>> age = FoamAge::create(device);
+        if (!age) {
+            return age.error();
+        }
+        made->foam_age_ = std::move(age).value();
+    }
     if (Status status = makeOneSet(device, made->pipeline_, kBindings, made->pool_, made->set_); !status) {
         return status.error();
     }
@@ -110,8 +134,8 @@ OutputSlots::~OutputSlots() {
     device_.fn.vkDestroyDescriptorPool(device_.handle, pool_, nullptr);
 }
 
-Status OutputSlots::shape(Solver& solver, std::uint64_t value) {
-    if (!anisotropy_) {
+Status OutputSlots::look(Solver& solver, std::uint64_t value) {
+    if (!anisotropy_ && !foam_) {
         return {};
     }
     const DeviceParticles state = solver.onDevice();
@@ -126,7 +150,26 @@ Status OutputSlots::shape(Solver& solver, std::uint64_t value) {
         }
         places = {places_->marks(), places_->before()};
     }
-    return solver.ellipsoids(*anisotropy_, slot(value).ellipsoids.buffer(), places);
+    if (anisotropy_) {
+        if (Status status = solver.ellipsoids(*anisotropy_, slot(value).ellipsoids.buffer(), places); !status) {
+            return status;
+        }
+    }
+    return foam_ ? whiten(solver, value, places) : Status{};
+}
+
+Status OutputSlots::whiten(Solver& solver, std::uint64_t value, const PlaceBuffers& places) {
+    const VkBuffer to = slot(value).whitewater.buffer();
+    if (Status status = solver.whitewater(foam_->ranges, to, places); !status) {
+        return status;
+    }
+    const double passed = solver.time() - foam_time_;
+    foam_time_ = solver.time();
+    if (passed < 0.0) {
+        foam_age_->forget();  // it has begun anew
+    }
+    return foam_age_->age(solver.onDevice(), to, places,
+                          static_cast<float>(std::exp2(-std::max(passed, 0.0) / foam_->life)));
 }
 
 Status OutputSlots::publish(const DeviceParticles& state, std::uint64_t value, const VkSemaphoreSubmitInfo& signal) {
@@ -174,6 +217,7 @@ ParticleBuffers OutputSlots::buffers(std::uint64_t value) const {
         out.ellipsoids = slot(value).ellipsoids.buffer();
         out.longest = longestStretch(anisotropy_->ratio);
     }
+    out.whitewater = slot(value).whitewater.buffer();
     return out;
 }
 

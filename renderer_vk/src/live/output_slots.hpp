@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "frame/pass_context.hpp"
+#include "live/foam_age.hpp"
 #include "live/particle_places.hpp"
 #include "memory/buffer.hpp"
 #include "passes/pipeline.hpp"
@@ -23,6 +24,13 @@ namespace sluice::vk {
 struct OutputSlot {
     Buffer position, velocity, draw;
     Buffer ellipsoids;  ///< kEllipsoidFloats each, if they were asked for
+    Buffer whitewater;  ///< kWhitewaterFloats each, likewise; the last is the particle's foam
+};
+
+/// Foam that is asked for.
+struct FoamSettings {
+    Whitewater ranges;
+    double life = 1.0;  ///< s after which half is left
 };
 
 /// Value v lies in slot v mod count(). Filled by the simulation's thread, read by frames. Pinned; dies before `device`,
@@ -32,15 +40,16 @@ class OutputSlots {
     /// `device`: that of the solver, a computeView(). `particles`: the most that there will ever be, at least 1.
     static Result<std::unique_ptr<OutputSlots>> create(const Device& device, std::uint32_t slots,
                                                        std::uint32_t particles, float radius,
-                                                       const std::optional<Anisotropy>& anisotropy);
+                                                       const std::optional<Anisotropy>& anisotropy,
+                                                       const std::optional<FoamSettings>& foam);
     explicit OutputSlots(const Device& device) : device_(device) {}
     OutputSlots(const OutputSlots&) = delete;
     OutputSlots& operator=(const OutputSlots&) = delete;
     ~OutputSlots();
 
-    /// The shapes of the particles of `solver` into the slot of `value`, if they were asked for; returns when the
-    /// device has done it. Before publish.
-    [[nodiscard]] Status shape(Solver& solver, std::uint64_t value);
+    /// The shapes and the foam of the particles of `solver` into the slot of `value`, if they were asked for; returns
+    /// when the device has done it. Before publish.
+    [[nodiscard]] Status look(Solver& solver, std::uint64_t value);
     /// Copies `state` into the slot of `value`, signals, and returns when the device has done it. No work under way may
     /// use that slot.
     [[nodiscard]] Status publish(const DeviceParticles& state, std::uint64_t value,
@@ -51,10 +60,15 @@ class OutputSlots {
     [[nodiscard]] const OutputSlot& slot(std::uint64_t value) const { return slots_[value % slots_.size()]; }
 
   private:
+    [[nodiscard]] Status whiten(Solver& solver, std::uint64_t value, const PlaceBuffers& places);
+
     const Device& device_;
     std::uint32_t particles_ = 0;
     float radius_ = 0.0F;
     std::optional<Anisotropy> anisotropy_;
+    std::optional<FoamSettings> foam_;
+    std::unique_ptr<FoamAge> foam_age_;
+    double foam_time_ = 0.0;  ///< s, of the solver when the foam was aged last
     std::vector<OutputSlot> slots_;
     std::unique_ptr<ParticlePlaces> places_;
     Pipeline pipeline_;

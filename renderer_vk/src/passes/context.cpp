@@ -25,7 +25,7 @@ VkImageMemoryBarrier2 barrierOf(const Image& image, VkImageLayout from, VkImageL
 void openImages(const PassContext& context) {
     std::vector<VkImageMemoryBarrier2> barriers;
     for (const PlannedImage& planned : context.plan.images) {
-        const bool drawn = planned.id == PlanImage::DepthA || planned.id == PlanImage::Thickness;
+        const bool drawn = isDrawn(planned.id);
         VkImageMemoryBarrier2 barrier =
             barrierOf(context.images[planned.id], VK_IMAGE_LAYOUT_UNDEFINED,
                       drawn ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_GENERAL);

@@ -46,6 +46,10 @@ struct PassContext {
     [[nodiscard]] std::uint64_t pixels() const { return std::uint64_t{plan.width} * plan.height; }
 };
 
+/// Splats draw into it.
+[[nodiscard]] constexpr bool isDrawn(PlanImage id) {
+    return id == PlanImage::DepthA || id == PlanImage::Thickness || id == PlanImage::Foam;
+}
 /// Before the first pass: the last frame's use of the renderer's images is over, their contents are dropped, those that
 /// are drawn into are colour attachments and the others are in GENERAL.
 void openImages(const PassContext& context);

@@ -16,6 +16,7 @@
 #include "passes/context.hpp"
 #include "passes/echo.hpp"
 #include "passes/filter.hpp"
+#include "passes/foam.hpp"
 #include "passes/frame_constants.hpp"
 #include "passes/shade.hpp"
 #include "passes/splat.hpp"
@@ -39,6 +40,7 @@ struct FluidRecorder::State {
     std::optional<NormalsPass> normals;
     std::array<std::optional<SplatThicknessPass>, 2> splat_thickness;
     std::optional<BlurThicknessPass> blur_thickness;
+    std::optional<SplatFoamPass> splat_foam;
     ShadePass shade;
     std::optional<EchoPass> echo;
     std::optional<ClearPass> clear;
@@ -93,7 +95,7 @@ Result<Image> makeOwn(const Device& device, const PlannedImage& planned) {
     assert(format != nullptr);
     VkImageUsageFlags usage = VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_STORAGE_BIT |
                               VK_IMAGE_USAGE_TRANSFER_SRC_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT;
-    if (planned.id == PlanImage::DepthA || planned.id == PlanImage::Thickness) {
+    if (isDrawn(planned.id)) {
         usage |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
     }
     return Image::create(device, {static_cast<VkFormat>(format->vk_format), planned.width, planned.height, usage, false,
@@ -185,7 +187,8 @@ Status FluidRecorder::prepare(const Plan& plan) {
           build(device, plan, PassId::Normals, state_->normals),
           build(device, plan, PassId::SplatThickness, state_->splat_thickness.at(shape), plan.ellipsoids),
           build(device, plan, PassId::BlurThickness, state_->blur_thickness),
-          build(device, plan, PassId::Echo, state_->echo), build(device, plan, PassId::Clear, state_->clear)}) {
+          build(device, plan, PassId::SplatFoam, state_->splat_foam), build(device, plan, PassId::Echo, state_->echo),
+          build(device, plan, PassId::Clear, state_->clear)}) {
         if (!status) {
             return status;
         }
@@ -299,6 +302,9 @@ Status FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame,
                 break;
             case PassId::BlurThickness:
                 state_->blur_thickness->record(context);
+                break;
+            case PassId::SplatFoam:
+                state_->splat_foam->record(context);
                 break;
             case PassId::Shade:
                 state_->shade.record(context);

@@ -64,7 +64,8 @@ FrameConstants makeFrameConstants(const SluiceFrame& frame, const Plan& plan, co
     block.thickness = {std::round(1.0F / fluid.thickness_scale), fluid.thickness_blur * radius,
                        static_cast<float>(chord_weight), 0.0F};
     block.modes = {static_cast<std::uint32_t>(targets.host_depth_encoding), particles.count,
-                   std::bit_cast<std::uint32_t>(plan.ellipsoids ? particles.longest : 1.0F), 0};
+                   std::bit_cast<std::uint32_t>(plan.ellipsoids ? particles.longest : 1.0F),
+                   std::bit_cast<std::uint32_t>(fluid.foam)};
     return block;
 }
 

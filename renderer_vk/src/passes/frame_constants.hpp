@@ -28,7 +28,8 @@ struct FrameConstants {
     Vec4 filter;     ///< delta, mu, sigma; w = cap in pixels
     Vec4 thickness;  ///< pixels per thickness texel; sigma of the blur; chord weight; depth below which no point is
                      ///< wide enough
-    std::array<std::uint32_t, 4> modes;  ///< SluiceDepthEncoding of HOST_DEPTH, particles, bits of the longest axis
+    std::array<std::uint32_t, 4>
+        modes;  ///< SluiceDepthEncoding of HOST_DEPTH, particles, bits of the longest axis and of foam
 };
 static_assert(sizeof(FrameConstants) == 64 + 14 * 16, "std140 has no padding here");
 

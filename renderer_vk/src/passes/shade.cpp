@@ -23,7 +23,8 @@ ShadePass::Key ShadePass::keyOf(const Plan& plan) {
             flag(plan.refraction),
             plan.reflection ? 1U + flag(plan.environment_map) : 0U,
             flag(wanted(plan, SLUICE_IMAGE_FLUID_NORMAL)),
-            flag(wanted(plan, SLUICE_IMAGE_FLUID_THICKNESS))};
+            flag(wanted(plan, SLUICE_IMAGE_FLUID_THICKNESS)),
+            flag(findImage(plan, PlanImage::Foam) != nullptr)};
 }
 
 Status ShadePass::prepare(const Device& device, const Plan& plan) {
@@ -44,7 +45,8 @@ Status ShadePass::prepare(const Device& device, const Plan& plan) {
                                   kStorage,
                                   kStorage,
                                   kStorage,
-                                  kStorage};
+                                  kStorage,
+                                  kSampled};
     auto pipeline = createCompute(device, {"shade", shade_comp, bindings, 0, key});
     if (!pipeline) {
         return pipeline.error();
@@ -80,15 +82,17 @@ void ShadePass::record(const PassContext& context) const {
                               storage(targets.fluid_colour.view),
                               storage(targets.fluid_depth.view),
                               output(write_normal, targets.fluid_normal),
-                              output(write_thickness, targets.fluid_thickness)};
+                              output(write_thickness, targets.fluid_thickness),
+                              sampled(images.readable(PlanImage::Foam))};
     const Image& thickness = images[PlanImage::Thickness];
     const std::uint64_t bytes_per_pixel = 4U + 4U + (images[PlanImage::Normal] ? 8U : 0U) +
                                           (context.plan.refraction ? 4U : 0U) + 8U + 4U + (write_normal ? 8U : 0U) +
                                           (write_thickness ? 4U : 0U);
-    context.timer.begin(
-        context.commands,
-        {"shade", context.pixels(),
-         context.pixels() * bytes_per_pixel + std::uint64_t{thickness.width()} * thickness.height() * 4, false, 1});
+    context.timer.begin(context.commands,
+                        {"shade", context.pixels(),
+                         context.pixels() * bytes_per_pixel +
+                             std::uint64_t{thickness.width()} * thickness.height() * (images[PlanImage::Foam] ? 8 : 4),
+                         false, 1});
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, found->second, bindings);
     dispatchTiles(context, images.surface_tiles);
     context.timer.end(context.commands);

@@ -10,6 +10,7 @@ list(APPEND SLUICE_VK_SOURCES
     src/passes/echo.cpp
     src/passes/filter.cpp
     src/passes/fluid_recorder.cpp
+    src/passes/foam.cpp
     src/passes/frame_constants.cpp
     src/passes/pipeline.cpp
     src/passes/shade.cpp

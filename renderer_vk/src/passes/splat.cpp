@@ -28,59 +28,9 @@ constexpr std::uint32_t kNearRow = 32768;
 /// Where near_draw has the draw of points.
 constexpr VkDeviceSize kPointsAt = sizeof(VkDrawIndirectCommand);
 
-struct Target {
-    PlanImage id;
-    float clear;
-};
-
-void draw(const PassContext& context, const Target& target, const SplatPipelines& pipelines,
-          std::span<const Binding> bindings) {
-    const Device& device = context.device;
-    const Image& image = context.images[target.id];
-    auto attachment = vkStruct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
-    attachment.imageView = image.view();
-    attachment.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    attachment.clearValue.color.float32[0] = target.clear;
-    auto rendering = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
-    rendering.renderArea = {{0, 0}, {image.width(), image.height()}};
-    rendering.layerCount = 1;
-    rendering.colorAttachmentCount = 1;
-    rendering.pColorAttachments = &attachment;
-    device.fn.vkCmdBeginRendering(context.commands, &rendering);
-    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.points, bindings);
-    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(image.width()), static_cast<float>(image.height()),
-                              0.0F, 1.0F};
-    device.fn.vkCmdSetViewport(context.commands, 0, 1, &viewport);
-    device.fn.vkCmdSetScissor(context.commands, 0, 1, &rendering.renderArea);
-    device.fn.vkCmdDrawIndirect(context.commands, context.images.near_draw.buffer(), kPointsAt, 1, 0);
-    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.triangles, bindings);
-    device.fn.vkCmdDrawIndirect(context.commands, context.images.near_draw.buffer(), 0, 1, 0);
-    device.fn.vkCmdEndRendering(context.commands);
-}
-
 constexpr std::array kDepthBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 constexpr std::array kThicknessBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                         VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
-
-Result<SplatPipelines> splatPipelines(const Device& device, SplatDesc desc, bool scaled) {
-    const std::array<std::uint32_t, 2> point{1, scaled ? 1U : 0U};
-    desc.topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
-    desc.constants = point;
-    auto points = createSplat(device, desc);
-    if (!points) {
-        return points.error();
-    }
-    const std::array<std::uint32_t, 2> triangle{3, scaled ? 1U : 0U};
-    desc.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    desc.constants = triangle;
-    auto triangles = createSplat(device, desc);
-    if (!triangles) {
-        return triangles.error();
-    }
-    return SplatPipelines{std::move(points).value(), std::move(triangles).value()};
-}
 
 /// What a splat is made of, and bytes of it.
 VkBuffer splatsOf(const PassContext& context) {
@@ -117,6 +67,51 @@ void findNear(const PassContext& context, const Pipeline& pipeline) {
 
 }  // namespace
 
+void drawSplats(const PassContext& context, const SplatTarget& target, const SplatPipelines& pipelines,
+                std::span<const Binding> bindings) {
+    const Device& device = context.device;
+    const Image& image = context.images[target.id];
+    auto attachment = vkStruct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+    attachment.imageView = image.view();
+    attachment.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+    attachment.clearValue.color.float32[0] = target.clear;
+    auto rendering = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
+    rendering.renderArea = {{0, 0}, {image.width(), image.height()}};
+    rendering.layerCount = 1;
+    rendering.colorAttachmentCount = 1;
+    rendering.pColorAttachments = &attachment;
+    device.fn.vkCmdBeginRendering(context.commands, &rendering);
+    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.points, bindings);
+    const VkViewport viewport{0.0F, 0.0F, static_cast<float>(image.width()), static_cast<float>(image.height()),
+                              0.0F, 1.0F};
+    device.fn.vkCmdSetViewport(context.commands, 0, 1, &viewport);
+    device.fn.vkCmdSetScissor(context.commands, 0, 1, &rendering.renderArea);
+    device.fn.vkCmdDrawIndirect(context.commands, context.images.near_draw.buffer(), kPointsAt, 1, 0);
+    context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.triangles, bindings);
+    device.fn.vkCmdDrawIndirect(context.commands, context.images.near_draw.buffer(), 0, 1, 0);
+    device.fn.vkCmdEndRendering(context.commands);
+}
+
+Result<SplatPipelines> splatPipelines(const Device& device, SplatDesc desc, bool scaled) {
+    const std::array<std::uint32_t, 2> point{1, scaled ? 1U : 0U};
+    desc.topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
+    desc.constants = point;
+    auto points = createSplat(device, desc);
+    if (!points) {
+        return points.error();
+    }
+    const std::array<std::uint32_t, 2> triangle{3, scaled ? 1U : 0U};
+    desc.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    desc.constants = triangle;
+    auto triangles = createSplat(device, desc);
+    if (!triangles) {
+        return triangles.error();
+    }
+    return SplatPipelines{std::move(points).value(), std::move(triangles).value()};
+}
+
 Result<SplatDepthPass> SplatDepthPass::create(const Device& device, bool ellipsoids) {
     auto pipelines = splatPipelines(
         device,
@@ -146,7 +141,7 @@ void SplatDepthPass::record(const PassContext& context) const {
                         {"splat_depth", count, count * (12 + splatBytes(context)) + context.pixels() * 4, true, 3});
     findNear(context, near);
     const std::array bindings{uniform(context.arena.constants()), readBuffer(splatsOf(context))};
-    draw(context, {PlanImage::DepthA, 1e30F}, pipelines, bindings);
+    drawSplats(context, {PlanImage::DepthA, 1e30F}, pipelines, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::DepthA);
 }
@@ -188,7 +183,7 @@ void SplatThicknessPass::record(const PassContext& context) const {
     beforeFragments(context);
     const std::array bindings{uniform(context.arena.constants()), readBuffer(splatsOf(context)),
                               sampled(context.images[PlanImage::SceneDepth].view())};
-    draw(context, {PlanImage::Thickness, 0.0F}, pipelines, bindings);
+    drawSplats(context, {PlanImage::Thickness, 0.0F}, pipelines, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::Thickness);
 }

@@ -2,6 +2,8 @@
 // Spheres, or ellipsoids, drawn as points or triangles: nearest depth, and sum of thickness.
 #pragma once
 
+#include <span>
+
 #include "passes/context.hpp"
 #include "passes/pipeline.hpp"
 
@@ -12,6 +14,17 @@ struct SplatPipelines {
     Pipeline points;     ///< one vertex per splat
     Pipeline triangles;  ///< one triangle per splat that is too near to be a point
 };
+
+/// `scaled`: the target has the resolution of thickness.
+[[nodiscard]] Result<SplatPipelines> splatPipelines(const Device& device, SplatDesc desc, bool scaled);
+
+struct SplatTarget {
+    PlanImage id;
+    float clear;
+};
+/// Splats into a cleared attachment, as SplatDepthPass has found out how to draw them.
+void drawSplats(const PassContext& context, const SplatTarget& target, const SplatPipelines& pipelines,
+                std::span<const Binding> bindings);
 
 struct SplatDepthPass {
     static Result<SplatDepthPass> create(const Device& device, bool ellipsoids);

@@ -23,7 +23,7 @@ struct Limit {
 
 Status checkNumbers(const SluiceFluid& fluid) {
     // The upper limits only catch nonsense; they lie far beyond any fluid.
-    const std::array<Limit, 14> limits{{
+    const std::array<Limit, 15> limits{{
         {"fluid.absorption[0]", fluid.absorption[0], 0.0F, 1e6F},
         {"fluid.absorption[1]", fluid.absorption[1], 0.0F, 1e6F},
         {"fluid.absorption[2]", fluid.absorption[2], 0.0F, 1e6F},
@@ -38,6 +38,7 @@ Status checkNumbers(const SluiceFluid& fluid) {
         {"fluid.filter_sigma", fluid.filter_sigma, 0.0F, 1e3F},
         {"fluid.thickness_scale", fluid.thickness_scale, 0.25F, 1.0F},
         {"fluid.thickness_blur", fluid.thickness_blur, 0.0F, 1e3F},
+        {"fluid.foam", fluid.foam, 0.0F, 1e3F},
     }};
     for (const Limit& limit : limits) {
         // Negated so that NaN fails as well.

@@ -63,6 +63,8 @@ std::string_view toString(PassId pass) {
             return "splat_thickness";
         case PassId::BlurThickness:
             return "blur_thickness";
+        case PassId::SplatFoam:
+            return "splat_foam";
         case PassId::Shade:
             return "shade";
         case PassId::Echo:
@@ -87,6 +89,8 @@ std::string_view toString(PlanImage image) {
             return "thickness";
         case PlanImage::ThicknessSums:
             return "thickness sums";
+        case PlanImage::Foam:
+            return "foam";
         case PlanImage::SceneDepth:
             return "scene depth";
         case PlanImage::HostColour:

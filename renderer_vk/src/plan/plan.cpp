@@ -15,7 +15,7 @@ namespace {
 
 /// What the scene needs, decided once; every pass below follows from it.
 struct Wants {
-    bool filter, normals, thickness, blur, host_colour, environment;
+    bool filter, normals, thickness, blur, foam, host_colour, environment;
 };
 
 bool anyPositive(std::span<const float, 3> values) {
@@ -28,8 +28,9 @@ Wants wantsOf(const SluiceSceneNeeds& needs) {
     const auto asked = [&](SluiceImageRole role) { return (needs.outputs & SLUICE_ROLE_BIT(role)) != 0; };
     Wants wants{};
     wants.normals = shaded || fluid.view == SLUICE_VIEW_NORMAL || asked(SLUICE_IMAGE_FLUID_NORMAL);
+    wants.foam = shaded && fluid.foam > 0.0F;
     wants.thickness =
-        fluid.view == SLUICE_VIEW_THICKNESS || asked(SLUICE_IMAGE_FLUID_THICKNESS) ||
+        wants.foam || fluid.view == SLUICE_VIEW_THICKNESS || asked(SLUICE_IMAGE_FLUID_THICKNESS) ||
         (shaded && (anyPositive(fluid.absorption) || anyPositive(fluid.scatter_colour) || fluid.refraction != 0));
     wants.filter = fluid.filter == SLUICE_FILTER_NARROW_RANGE && fluid.filter_iterations > 0 &&
                    fluid.filter_sigma > 0.0F && fluid.filter_max_pixels > 0 &&
@@ -68,6 +69,9 @@ std::string thicknessReason(const SluiceSceneNeeds& needs) {
         if (fluid.refraction != 0) {
             return "refraction needs the length of the path";
         }
+        if (fluid.foam > 0.0F) {
+            return "foam is seen as far as the scene lets it";
+        }
     }
     return "the host reads FLUID_THICKNESS";
 }
@@ -91,6 +95,7 @@ class Builder {
         }
         surface();
         thickness();
+        foam();
         shade();
         omit(PassId::Echo, "the view is not echo");
         omit(PassId::Clear, "there are particles");
@@ -189,6 +194,17 @@ class Builder {
         }
     }
 
+    void foam() {
+        if (!wants_.foam) {
+            omit(PassId::SplatFoam, "no foam is made, or none is asked for");
+            return;
+        }
+        const PlannedImage& like = *findImage(plan_, PlanImage::Thickness);
+        plan_.images.push_back({PlanImage::Foam, SLUICE_FORMAT_R32F, like.width, like.height});
+        keep(PassId::SplatFoam, {PlanImage::SceneDepth, plan_.surface}, {PlanImage::Foam}, 2,
+             "the simulation makes foam");
+    }
+
     void shade() {
         std::vector<PlanImage> reads{plan_.surface, PlanImage::HostDepth, PlanImage::SurfaceTiles};
         if (wants_.normals) {
@@ -196,6 +212,9 @@ class Builder {
         }
         if (wants_.thickness) {
             reads.push_back(PlanImage::Thickness);
+        }
+        if (wants_.foam) {
+            reads.push_back(PlanImage::Foam);
         }
         if (wants_.host_colour) {
             reads.push_back(PlanImage::HostColour);

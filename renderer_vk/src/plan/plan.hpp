@@ -21,6 +21,7 @@ enum class PassId : std::uint8_t {
     Normals,
     SplatThickness,
     BlurThickness,
+    SplatFoam,  ///< of a simulation that makes some
     Shade,
     Echo,
     Clear,  ///< no particles: the fluid images say "no fluid"
@@ -36,6 +37,7 @@ enum class PlanImage : std::uint8_t {
     Thickness,      ///< R32F metres along the view ray, reduced resolution
     ThicknessSums,  ///< RG32F weighted sum and weight between the two directions of the blur
     SceneDepth,     ///< R32F farthest scene depth in each texel of Thickness, metres; 1e30 = nothing
+    Foam,           ///< R32F metres of foam along the view ray, at the resolution of Thickness
     HostColour,
     HostDepth,
     Environment,

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "device/validation.hpp"
@@ -262,6 +263,9 @@ Status SluiceRenderer::preparePlan(const SluiceFrame& frame) {
     needs.fluid = frame.fluid;
     if (frame.simulation == 0 || !simulation_ || !simulation_->shaped()) {
         needs.fluid.ellipsoids = 0;  // these particles have no shapes
+    }
+    if (frame.simulation == 0 || !simulation_ || !simulation_->foams()) {
+        needs.fluid.foam = std::min(needs.fluid.foam, 0.0F);  // nor foam; NaN is refused as ever
     }
     Result<Plan> plan = makePlan(needs);
     if (!plan) {

@@ -90,6 +90,27 @@ Status readDepth(const SluiceSimulation& s, LiveSetup& to) {
     return {};
 }
 
+Status readFoam(const SluiceSimulation& s, LiveSetup& to) {
+    if (s.foam_life == 0.0F) {
+        return {};
+    }
+    if (!(s.foam_life > 0.0F && s.foam_life <= 1e6F)) {
+        return invalid("simulation.foam_life", fmt::format("{} s is outside [0, 1e6]", s.foam_life));
+    }
+    FoamSettings foam;
+    foam.life = double{s.foam_life};
+    const auto take = [](const float(&given)[2], WhitewaterRange& range) {
+        if (given[0] != 0.0F || given[1] != 0.0F) {
+            range = {given[0], given[1]};
+        }
+    };
+    take(s.foam_air, foam.ranges.air);
+    take(s.foam_crest, foam.ranges.crest);
+    take(s.foam_energy, foam.ranges.energy);
+    to.foam = foam;
+    return {};
+}
+
 }  // namespace
 
 Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
@@ -142,6 +163,9 @@ Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
         setup.anisotropy = Anisotropy{s.anisotropy, s.smoothing, s.lonely != 0.0F ? s.lonely : usual.lonely};
     }
     if (Status status = readDepth(s, setup); !status) {
+        return status.error();
+    }
+    if (Status status = readFoam(s, setup); !status) {
         return status.error();
     }
     setup.most_particles = s.emitter_count > 0 ? s.max_particles : std::max(s.max_particles, s.particle_count);

@@ -8,8 +8,9 @@
 
 namespace sluice::vk {
 
-/// Floats of a particle: trapped air, wave crest, kinetic energy, each 0 to 1.
-inline constexpr std::size_t kWhitewaterFloats = 3;
+/// Floats of a particle: trapped air, wave crest, kinetic energy, and what turns white of all: energy times the sum of
+/// the other two. Each 0 to 1.
+inline constexpr std::size_t kWhitewaterFloats = 4;
 
 /// From where a value counts, and from where it is 1. The defaults are what SPlisHSPlasH's foam generator takes.
 struct WhitewaterRange {

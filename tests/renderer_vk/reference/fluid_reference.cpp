@@ -177,7 +177,8 @@ std::vector<double> referenceSplat(const ReferenceFrame& frame, std::vector<doub
     return depth;
 }
 
-std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_t width, std::uint32_t height) {
+std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_t width, std::uint32_t height,
+                                       const ShareOfSphere& share) {
     const RigScene& scene = frame.scene;
     const double scale = std::round(1.0 / double{scene.fluid.thickness_scale});
     const double radius = double{scene.radius};
@@ -195,7 +196,11 @@ std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_
             for (std::size_t i = 0; i < frame.eyes.size(); ++i) {
                 const Hit h = hit(ray, frame.eyes[i], frame.inverses[i]);
                 const double chord = std::min(h.leave, behind) - std::max(h.enter, double{scene.camera.near_plane});
-                result[std::size_t{y} * width + x] += weight * std::max(chord, 0.0) * std::sqrt(dot(ray, ray));
+                if (chord > 0.0) {
+                    const double length = std::sqrt(dot(ray, ray));
+                    const double counts = share ? share(i, x, y, 0.5 * (h.enter + h.leave), length) : 1.0;
+                    result[std::size_t{y} * width + x] += weight * chord * length * counts;
+                }
             }
         }
     }

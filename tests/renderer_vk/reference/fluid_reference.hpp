@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "pass_rig.hpp"
@@ -37,8 +38,12 @@ inline constexpr double kEmpty = 1e30;
 /// Nearest depth per pixel. `slack`, if given, receives for each pixel the smallest distance in pixels between its
 /// centre and a sphere's outline as far as that outline could decide anything: coverage within it is not comparable.
 [[nodiscard]] std::vector<double> referenceSplat(const ReferenceFrame& frame, std::vector<double>* slack = nullptr);
+/// `share`, if given: what of a sphere counts in a texel where the middle of its chord has that depth and the ray that
+/// length.
+using ShareOfSphere =
+    std::function<double(std::size_t sphere, std::uint32_t x, std::uint32_t y, double middle, double ray)>;
 [[nodiscard]] std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_t width,
-                                                     std::uint32_t height);
+                                                     std::uint32_t height, const ShareOfSphere& share = {});
 /// The whole filter pass, every iteration and the clean-up.
 [[nodiscard]] std::vector<double> referenceFilter(const ReferenceFrame& frame, std::vector<double> depth);
 [[nodiscard]] std::vector<Vec3> referenceNormals(const ReferenceFrame& frame, const std::vector<float>& depth);

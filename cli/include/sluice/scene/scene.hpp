@@ -158,6 +158,12 @@ struct Anisotropy {
     float lonely = 0.5F;     ///< size of a particle without neighbours
 };
 
+/// Where its water turns white meanwhile. Pairs: from where a potential counts, and from where it is 1.
+struct Foam {
+    float life = 0.0F;  ///< s after which half of it is left; 0: none
+    float air_low = 5.0F, air_high = 20.0F, crest_low = 2.0F, crest_high = 8.0F, energy_low = 5.0F, energy_high = 50.0F;
+};
+
 struct Simulation {
     float radius = 0.02F;                ///< of a particle, metres
     Vec3 low{-1, 0, -1}, high{1, 2, 1};  ///< the box that nothing leaves
@@ -168,6 +174,7 @@ struct Simulation {
     float relaxation = 0.1F, tensile = 0.0005F, viscosity = 0.02F, vorticity = 0.0F, cfl = 0.4F, overshoot = 0.17F;
     float tension = 0.0F, adhesion = 0.0F;  ///< m/s^2
     Anisotropy anisotropy;
+    Foam foam;
     float jitter = 0.05F;                    ///< radii that a particle may be off its lattice at the start
     std::uint32_t collide_with_engine = 1;   ///< floor, pillars, crates and basins are solids too
     std::uint32_t collide = kCollideSolids;  ///< kCollideDepth: not those, nor meshes, but what is seen of them
