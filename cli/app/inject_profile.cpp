@@ -112,6 +112,11 @@ Status readInjectedScene(const std::string& path, inject::Settings& settings) {
         return loaded.error();
     }
     const scene::Simulation& simulation = loaded.value().simulation;
+    if (simulation.fluids.size() > 1) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, path + ": /simulation/fluids",
+                     fmt::format("expected one fluid to pour into a program, found {}", simulation.fluids.size()),
+                     "leave one of them"};
+    }
     inject::WaterPlan& water = settings.water;
     water.radius = simulation.radius;
     water.low = simulation.low;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/live_fluid.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -57,6 +55,7 @@ void addSources(LiveFluid& live, const simulator::Setup& setup) {
         to.rate = e.rate;
         to.start = e.start;
         to.stop = e.stop;
+        to.fluid = e.fluid;
     }
     for (const simulator::Drain& drain : setup.drains) {
         SluiceDrain& to = live.drains.emplace_back();
@@ -147,6 +146,10 @@ SluiceSimulation LiveFluid::view() const {
     out.mesh_corner_count = countOf(mesh_corners, 3);
     out.mesh_indices = mesh_indices.data();
     out.mesh_triangle_count = countOf(mesh_indices, 3);
+    out.fluids = fluids.data();
+    out.fluid_count = countOf(fluids);
+    out.particle_fluids = start.fluid.data();
+    out.particle_fluid_count = countOf(start.fluid);
     return out;
 }
 
@@ -157,11 +160,6 @@ bool simulatesLive(const scene::Scene& scene) {
 Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulator::Mesh>& meshes,
                             const LiveRequest& request) {
     simulator::Setup setup = simulationSetup(scene);
-    if (!setup.fluids.empty()) {  // which the C ABI does not know
-        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "/simulation/fluids",
-                     fmt::format("expected none while frames are drawn, found {}", setup.fluids.size()),
-                     "simulate into files first (sluice simulate SCENE -o FILE) and give them with --particles"};
-    }
     const bool by_depth = scene.simulation.collide == scene::kCollideDepth;
     if (Status status = by_depth ? Status{} : simulator::addMeshes(setup, meshes); !status) {
         return status.error();
@@ -175,6 +173,9 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulat
     live.solids = solidsOf(setup);
     addSources(live, setup);
     addBodies(live, setup);
+    for (const simulator::Fluid& f : setup.fluids) {
+        live.fluids.push_back({f.density, f.viscosity, f.tension, f.adhesion, {}});
+    }
     if (!by_depth) {
         addMeshes(live, meshes);
     }

@@ -21,6 +21,7 @@ struct LiveFluid {
     std::vector<SluiceBody> bodies;
     std::vector<SluicePathPoint> path_points;
     std::vector<SluiceMesh> meshes;
+    std::vector<SluiceFluidKind> fluids;
     std::vector<float> mesh_corners;
     std::vector<std::uint32_t> mesh_indices;
     simulator::Particles start;

@@ -4,6 +4,21 @@
 #include <fmt/format.h>
 
 namespace sluice {
+namespace {
+
+Error cameLater(const char* what, unsigned minor, const SluiceRendererApi& api) {
+    return {SLUICE_ERROR_UNSUPPORTED, what,
+            fmt::format("the plugin serves ABI {}.{}, and that came with 1.{}", api.abi_version >> 16U,
+                        api.abi_version & 0xffffU, minor),
+            "use a newer plugin, or simulate into files"};
+}
+
+/// A function tells of 1.2; 1.3 brought none.
+bool knowsFluids(const SluiceRendererApi& api) {
+    return (api.abi_version & 0xffffU) >= 3;
+}
+
+}  // namespace
 
 Status checkArrays(const SluiceSimulation& simulation) {
     const SluiceSimulation& s = simulation;
@@ -23,6 +38,12 @@ Status checkArrays(const SluiceSimulation& simulation) {
                                      "give fewer, and an address"};
                   }
               });
+    if (status && s.particle_fluid_count != 0 && s.particle_fluid_count != s.particle_count) {
+        status = Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation.particle_fluids",
+                       fmt::format("expected one for each of {} particles, or none, found {}", s.particle_count,
+                                   s.particle_fluid_count),
+                       ""};
+    }
     return status;
 }
 
@@ -38,6 +59,9 @@ Status checkArrays(const SluiceStart& start) {
 
 Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& api) {
     const SluiceSimulation& s = simulation;
+    if (s.fluid_count > 0 && !knowsFluids(api)) {
+        return cameLater("simulation.fluids", 3, api);
+    }
     if (api.simulation_bodies != nullptr && api.set_body != nullptr) {
         return {};
     }
@@ -51,13 +75,14 @@ Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& 
         {"anisotropy", s.anisotropy != 0.0F}, {"foam_life", s.foam_life != 0.0F}};
     for (const auto& [name, asked] : all) {
         if (asked) {
-            return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("simulation.{}", name),
-                         fmt::format("the plugin serves ABI {}.{}, and that came with 1.2", api.abi_version >> 16U,
-                                     api.abi_version & 0xffffU),
-                         "use a newer plugin, or simulate into files"};
+            return cameLater(fmt::format("simulation.{}", name).c_str(), 2, api);
         }
     }
     return {};
+}
+
+Status checkServed(const SluiceFlow& flow, const SluiceRendererApi& api) {
+    return flow.fluid_count > 0 && !knowsFluids(api) ? Status{cameLater("flow.fluids", 3, api)} : Status{};
 }
 
 }  // namespace sluice

@@ -2,6 +2,7 @@
 // libsluice.so in contexts that it did not make.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
@@ -364,6 +365,49 @@ TEST(Api, AFlowIsChangedWhileItFlowsAndKeptInAnotherContext) {
     EXPECT_EQ(particlesAfter(3), 0U) << "the jet is open again";
     ASSERT_EQ(log.lines.size(), 1U);
     EXPECT_NE(log.lines[0].find("another GL context is current"), std::string::npos) << log.lines[0];
+}
+
+TEST(Api, SeveralFluidsFlowAndOneChangesOrTheyAreRefusedByName) {
+    const EglCaller caller({});
+    const Buffers screen(kWidth, kHeight, {});
+    Log log;
+    const Fluid fluid = make(options(log, SLUICE_PROCESS_OWN));
+    SluiceWater water{};
+    sluice_water_defaults(&water, sizeof(water));
+    water.radius = 0.1F;
+    std::array<SluiceFluidKind, 2> kinds{{{1.0F, 0.02F, 0.0F, 0.0F, {}}, {0.25F, 0.1F, 0.0F, 0.0F, {}}}};
+    std::array<SluiceBlock, 2> blocks{};
+    for (std::size_t i = 0; i < 2; ++i) {
+        blocks.at(i) = {
+            {-0.5F, 0.5F * static_cast<float>(i), -0.5F}, {0.5F, 0.5F * static_cast<float>(i + 1), 0.5F}, {}, 0, {}};
+    }
+    blocks[0].fluid = 1;
+    water.blocks = blocks.data();
+    water.block_count = 2;
+    water.fluid_count = 1;
+    water.fluids = kinds.data();
+    EXPECT_EQ(sluice_set_water(fluid.get(), &water), SLUICE_ERROR_INVALID_ARGUMENT);
+    const auto said = [&] { return std::string(sluice_last_error(fluid.get())); };
+    EXPECT_NE(said().find("water.blocks: block 0 is of fluid 1, and there are 1"), std::string::npos) << said();
+    water.fluid_count = 2;
+    kinds[1].density = 0.01F;
+    EXPECT_EQ(sluice_set_water(fluid.get(), &water), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(said().find("at most 16 times as dense"), std::string::npos) << said();
+    kinds[1].density = 0.25F;
+    ASSERT_EQ(sluice_set_water(fluid.get(), &water), SLUICE_OK) << sluice_last_error(fluid.get());
+    SluiceFlow flow{};
+    sluice_flow_of(&water, &flow, sizeof(flow));
+    ASSERT_EQ(flow.fluid_count, 2U);
+    flow.fluids[1].viscosity = 0.5F;
+    log.lines.clear();
+    EXPECT_EQ(frame(fluid.get(), 1.0), SLUICE_OK) << sluice_last_error(fluid.get());
+    EXPECT_EQ(sluice_set_flow(fluid.get(), &flow), SLUICE_OK) << sluice_last_error(fluid.get());
+    EXPECT_EQ(frame(fluid.get(), 1.04), SLUICE_OK) << sluice_last_error(fluid.get());
+    EXPECT_EQ(frame(fluid.get(), 1.08), SLUICE_OK) << sluice_last_error(fluid.get());
+    const SluiceStatistics statistics = statisticsOf(fluid.get());
+    EXPECT_EQ(statistics.particles, 2U * 5 * 2 * 5);
+    EXPECT_EQ(statistics.simulation_failed, 0U);
+    EXPECT_EQ(log.lines, std::vector<std::string>{});
 }
 
 /// Fluid falls away from the camera; behind a wall of depth alone, half a metre behind the fluid, it would not be seen.

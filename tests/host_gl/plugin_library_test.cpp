@@ -55,7 +55,7 @@ TEST(PluginLibrary, NamesAMissingEntrySymbol) {
 }
 
 TEST(PluginLibrary, NamesAnEntryWithoutTable) {
-    EXPECT_THAT(loadError(plugin("table")), HasSubstr("does not serve ABI 1.2"));
+    EXPECT_THAT(loadError(plugin("table")), HasSubstr("does not serve ABI 1.3"));
 }
 
 TEST(PluginLibrary, NamesAnotherAbiMajor) {
@@ -84,7 +84,7 @@ TEST(PluginLibrary, AProcessRefusesTheSamePluginsByNameAndDoesNotCrash) {
         const char* said;
     };
     for (const auto& [name, said] :
-         {Case{"symbol", "does not export 'sluice_renderer_entry'"}, Case{"table", "does not serve ABI 1.2"},
+         {Case{"symbol", "does not export 'sluice_renderer_entry'"}, Case{"table", "does not serve ABI 1.3"},
           Case{"abi_major", "expected ABI major 1, found 2"},
           Case{"short_table", "expected a function table of at least"},
           Case{"null_function", "NULL for 'submit_frame'"}}) {

@@ -10,6 +10,7 @@
 #include <atomic>
 #include <cstring>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "sluice/abi_sizes.hpp"
@@ -279,6 +280,7 @@ TEST_F(IsolateServer, EveryArrayOfASimulationComesToItsOwnPlaceAndAnOlderPluginR
     auto s = sized<SluiceSimulation>();
     s.solid_count = s.particle_count = s.emitter_count = s.drain_count = s.field_count = s.body_count = 1;
     s.path_point_count = s.mesh_count = s.mesh_corner_count = s.mesh_triangle_count = 1;
+    s.fluid_count = s.particle_fluid_count = 1;
     // Each array is full of words that say which it is.
     std::vector<std::vector<float>> arrays;
     std::vector<std::span<const std::byte>> parts;
@@ -292,9 +294,18 @@ TEST_F(IsolateServer, EveryArrayOfASimulationComesToItsOwnPlaceAndAnOlderPluginR
     fake.words.clear();
     send(SetSimulation{{}, 1, s}, {memory.get()});
     EXPECT_EQ(returned().result, SLUICE_OK);
-    EXPECT_EQ(fake.words, (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10}));
+    EXPECT_EQ(fake.words, (std::vector<float>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12}));
 
-    api_.simulation_bodies = nullptr;  // the server's table
+    const std::uint32_t version = std::exchange(api_.abi_version, SLUICE_MAKE_ABI(1U, 2U));  // the server's table
+    send(SetSimulation{{}, 1, s}, {memory.get()});
+    EXPECT_THAT(returned().message, HasSubstr("simulation.fluids: the plugin serves ABI 1.2, and that came with 1.3"));
+    SetFlow flow{{}, sized<SluiceFlow>()};
+    flow.flow.fluid_count = 1;
+    send(flow);
+    EXPECT_THAT(returned().message, HasSubstr("flow.fluids"));
+    api_.abi_version = version;
+
+    api_.simulation_bodies = nullptr;
     send(SetSimulation{{}, 1, s}, {memory.get()});
     EXPECT_THAT(returned().message, HasSubstr("simulation.emitters"));
     send(SimulationBodies{{}, 1});

@@ -158,12 +158,15 @@ static_assert(offsetof(SluiceSimulation, gravity) == 36 && offsetof(SluiceSimula
 static_assert(offsetof(SluiceSimulation, solids) == 88 && offsetof(SluiceSimulation, tension) == 112);
 static_assert(offsetof(SluiceSimulation, emitters) == 144 && offsetof(SluiceSimulation, mesh_indices) == 200);
 static_assert(offsetof(SluiceSimulation, anisotropy) == 224 && offsetof(SluiceSimulation, depth_scale) == 240);
-static_assert(offsetof(SluiceSimulation, foam_life) == 256 && sizeof(SluiceSimulation) == 288);
+static_assert(offsetof(SluiceSimulation, foam_life) == 256 && offsetof(SluiceSimulation, fluids) == 288);
+static_assert(sizeof(SluiceSimulation) == 312);
 static_assert(sizeof(SluiceEmitter) == 80 && sizeof(SluiceDrain) == 48 && sizeof(SluiceForceField) == 64);
+static_assert(offsetof(SluiceEmitter, fluid) == 52 && sizeof(SluiceFluidKind) == 32);
 static_assert(sizeof(SluiceBody) == 96 && sizeof(SluicePathPoint) == 32 && sizeof(SluiceMesh) == 32);
 static_assert(sizeof(SluiceBodyState) == 96 && offsetof(SluiceBodies, bodies) == 16);
 static_assert(sizeof(SluiceBodyTarget) == 32);
-static_assert(offsetof(SluiceFlow, emitters) == 40 && sizeof(SluiceFlow) == 1320);
+static_assert(offsetof(SluiceFlow, emitters) == 40 && offsetof(SluiceFlow, fluid_count) == 1320);
+static_assert(sizeof(SluiceFlow) == 1580);
 static_assert(offsetof(SluiceStart, position) == 8 && sizeof(SluiceStart) == 24);
 static_assert(offsetof(SluiceSimulationStats, busy_ns) == 48 && offsetof(SluiceSimulationStats, message) == 84);
 static_assert(sizeof(SluiceSimulationStats) == 592);
@@ -237,7 +240,7 @@ static_assert(kSizePrefixed<SluiceSimulationStats> && kSizePrefixed<SluiceBodies
 static_assert(kSizePrefixed<SluiceBodyTarget> && kSizePrefixed<SluiceFlow> && kSizePrefixed<SluiceStart>);
 
 TEST(PluginAbi, EnumerationsKeepTheirValues) {
-    EXPECT_EQ(SLUICE_ABI_VERSION, 0x10002U);
+    EXPECT_EQ(SLUICE_ABI_VERSION, 0x10003U);
     EXPECT_EQ(SLUICE_MAKE_ABI(2U, 3U), 0x20003U);
     EXPECT_EQ(SLUICE_FORMAT_D24S8, 13);
     EXPECT_EQ(SLUICE_FORMAT_COUNT, 14);

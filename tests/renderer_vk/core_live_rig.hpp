@@ -62,6 +62,7 @@ struct Block {
     SluiceSolid solid{};
     std::vector<float> position;
     std::vector<float> velocity;  ///< of alone(); none: at rest
+    std::vector<std::uint32_t> fluid;  ///< of each particle, where there are several
     SluiceSimulation simulation{};
     std::function<void(Solver&)> seen;  ///< of alone()
 };
@@ -70,14 +71,15 @@ struct Block {
 inline std::vector<ParticleState> alone(const SimulationSettings& settings, const std::vector<float>& position,
                                         double longest, std::uint64_t values,
                                         const std::function<void(Solver&)>& seen = {},
-                                        const std::vector<float>& velocity = {}) {
+                                        const std::vector<float>& velocity = {},
+                                        const std::vector<std::uint32_t>& fluid = {}) {
     std::vector<ParticleState> states;
     DeviceRequest request;
     request.match_host = false;
     auto device = Device::create(request);
     auto solver = Solver::create(*device.value(), settings);
     EXPECT_TRUE(solver) << solver.error().message();
-    EXPECT_TRUE(solver.value()->setParticles(position, velocity));
+    EXPECT_TRUE(solver.value()->setParticles(position, velocity, fluid));
     for (std::uint64_t value = 1; value <= values; ++value) {
         if (value > 1) {
             EXPECT_TRUE(solver.value()->advance(kFrame, longest));
@@ -123,7 +125,8 @@ class LiveFluid : public ::testing::Test {
     std::vector<std::vector<std::byte>> uploaded(const Block& block, std::uint64_t values) {
         std::vector<std::vector<std::byte>> pictures;
         for (const ParticleState& state :
-             alone(block.settings, block.position, block.simulation.longest_step, values, block.seen, block.velocity)) {
+             alone(block.settings, block.position, block.simulation.longest_step, values, block.seen, block.velocity,
+                   block.fluid)) {
             auto particles = sized<SluiceParticles>();
             particles.count = static_cast<std::uint32_t>(state.position.size() / 3);
             particles.radius = block.simulation.radius;
@@ -147,6 +150,20 @@ class LiveFluid : public ::testing::Test {
         }));
         std::memcpy(out.data(), to.value().mapped().data(), bytes);
         return out;
+    }
+    /// The first values live, with so many in flight, against the pictures of the solver alone.
+    void expectPictures(const Block& block, const std::vector<std::vector<std::byte>>& pictures) {
+        ASSERT_NO_FATAL_FAILURE(start(block));
+        const std::uint32_t in_flight = block.simulation.frames_in_flight;
+        std::uint64_t asked = 0;
+        for (std::uint64_t k = 1; k <= pictures.size(); ++k) {
+            for (; asked < std::min<std::uint64_t>(pictures.size(), k + in_flight - 1); ++asked) {
+                ASSERT_EQ(simulate(asked + 1, asked == 0 ? 0.0 : kFrame), SLUICE_OK) << said.message;
+            }
+            EXPECT_EQ(draw(k, k), pictures[k - 1]) << "value " << k << ", " << in_flight << " frames in flight";
+        }
+        EXPECT_EQ(stats().failed, 0U) << stats().message;
+        EXPECT_EQ(frameStats(pictures.size()).validation_messages, 0U);
     }
     SluiceSimulationStats stats() {
         auto out = sized<SluiceSimulationStats>();

@@ -24,20 +24,6 @@ constexpr std::uint64_t kValues = 6;
 
 class LiveSources : public LiveFluid {
   protected:
-    /// Values 1 to kValues live, with so many in flight, against the pictures of the solver alone.
-    void expectPictures(const Block& block, const std::vector<std::vector<std::byte>>& pictures) {
-        ASSERT_NO_FATAL_FAILURE(start(block));
-        const std::uint32_t in_flight = block.simulation.frames_in_flight;
-        std::uint64_t asked = 0;
-        for (std::uint64_t k = 1; k <= pictures.size(); ++k) {
-            for (; asked < std::min<std::uint64_t>(pictures.size(), k + in_flight - 1); ++asked) {
-                ASSERT_EQ(simulate(asked + 1, asked == 0 ? 0.0 : kFrame), SLUICE_OK) << said.message;
-            }
-            EXPECT_EQ(draw(k, k), pictures[k - 1]) << "value " << k << ", " << in_flight << " frames in flight";
-        }
-        EXPECT_EQ(stats().failed, 0U) << stats().message;
-        EXPECT_EQ(frameStats(pictures.size()).validation_messages, 0U);
-    }
     SluiceBodies bodies(std::uint64_t value) {
         auto out = sized<SluiceBodies>();
         EXPECT_EQ(api().simulation_bodies(renderer->get(), value, &out), SLUICE_OK);

@@ -137,7 +137,8 @@ SLUICE_EXPORT void sluice_destroy(Sluice* fluid);
 typedef struct SluiceBlock {
     float low[3], high[3];
     float velocity[3];    /* metres per second */
-    uint32_t reserved[7]; /* zero */
+    uint32_t fluid;       /* its place in SluiceWater::fluids */
+    uint32_t reserved[6]; /* zero */
 } SluiceBlock;
 
 /* Where fluid is and what it does. docs/simulation.md has the solver's numbers. */
@@ -169,7 +170,11 @@ typedef struct SluiceWater {
     /* The fluid collides with what the engine's depth shows, a frame late: pixels each way that become one, 1..8, of
      * which 4 is a good start; 0: it does not. Needs a view that turns and moves and does not scale. */
     uint32_t depth_scale;
-    float depth_thickness; /* metres behind what is seen that are solid; 0: eight radii */
+    float depth_thickness;         /* metres behind what is seen that are solid; 0: eight radii */
+    const SluiceFluidKind* fluids; /* several, such as oil and water, of which blocks and emitters name one each; none:
+                                      one of density 1, with the viscosity, tension and adhesion above */
+    uint32_t fluid_count;          /* at most SLUICE_MAX_FLUIDS */
+    uint32_t reserved;             /* zero */
 } SluiceWater;
 SLUICE_EXPORT void sluice_water_defaults(SluiceWater* water, size_t struct_size);
 

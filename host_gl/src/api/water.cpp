@@ -97,6 +97,14 @@ Status check(const SluiceWater& w) {
         return wrong("blocks", fmt::format("it is NULL with a count of {}", w.block_count),
                      "give their address, or a count of 0");
     }
+    const std::uint32_t known = std::max(w.fluid_count, 1U);
+    for (std::uint32_t i = 0; i < w.block_count; ++i) {
+        if (w.blocks[i].fluid >= known) {
+            return wrong("blocks",
+                         fmt::format("block {} is of fluid {}, and there are {}", i, w.blocks[i].fluid, known),
+                         "number fluids from 0, in the order of water.fluids");
+        }
+    }
     if (w.solid_count > kMostSolids || (w.solid_count > 0 && w.solids == nullptr)) {
         return wrong("solids",
                      fmt::format("expected at most {}, found {}{}", kMostSolids, w.solid_count,
@@ -190,6 +198,9 @@ Status fill(Water& water, const SluiceWater& asked, std::size_t number, const La
             water.position.push_back(at);
             water.velocity.push_back(static_cast<float>(vec(block.velocity).at(axis)));
         }
+        if (free) {
+            water.fluid.push_back(block.fluid);
+        }
     }
     return {};
 }
@@ -231,6 +242,8 @@ SluiceSimulation settingsOf(const SluiceWater& asked, std::uint32_t particles) {
     s.mesh_indices = asked.mesh_indices;
     s.depth_scale = asked.depth_scale;
     s.depth_thickness = asked.depth_thickness;
+    s.fluid_count = asked.fluid_count;
+    s.fluids = asked.fluids;
     return s;
 }
 
@@ -241,6 +254,8 @@ SluiceSimulation Water::view() const {
     out.particle_count = count();
     out.position = position.data();
     out.velocity = velocity.data();
+    out.particle_fluids = fluid.data();
+    out.particle_fluid_count = static_cast<std::uint32_t>(fluid.size());
     return out;
 }
 
@@ -268,6 +283,8 @@ SluiceFlow flowOf(const SluiceWater& water) {
     flow.adhesion = water.adhesion;
     flow.emitter_count = water.emitters != nullptr ? std::min(water.emitter_count, SLUICE_MAX_EMITTERS) : 0;
     std::copy_n(water.emitters, flow.emitter_count, flow.emitters);
+    flow.fluid_count = water.fluids != nullptr ? std::min(water.fluid_count, SLUICE_MAX_FLUIDS) : 0;
+    std::copy_n(water.fluids, flow.fluid_count, flow.fluids);
     return flow;
 }
 
@@ -295,6 +312,9 @@ Result<Water> makeWater(const SluiceWater& asked) {
     }
     if (water.count() == 0 && asked.emitter_count == 0) {
         return wrong("blocks", "there are none, and there is no emitter", "give a block of fluid, or an emitter");
+    }
+    if (asked.fluid_count == 0) {
+        water.fluid.clear();
     }
     water.settings = settingsOf(asked, water.count());
     if (Status status = checkArrays(water.view()); !status) {

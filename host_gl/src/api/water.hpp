@@ -15,6 +15,7 @@ namespace sluice::host {
 struct Water {
     SluiceSimulation settings{};
     std::vector<float> position, velocity;
+    std::vector<std::uint32_t> fluid;  ///< of each particle; empty where there is one
 
     /// Must outlive neither this nor the SluiceWater that it was made of.
     [[nodiscard]] SluiceSimulation view() const;

@@ -225,6 +225,9 @@ Status Renderer::setFlow(const SluiceFlow& flow) const {
         return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("renderer {}", api_->name), "does not know set_flow",
                      "use a newer plugin"};
     }
+    if (Status status = checkServed(readAbiStruct(flow), *api_); !status) {
+        return status;
+    }
     auto said = sized<SluiceError>();
     const SluiceResult result = api_->set_flow(handle_, &flow, &said);
     return statusOf("set_flow", result, said);

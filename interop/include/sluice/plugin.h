@@ -58,7 +58,7 @@ extern "C" {
 #endif
 
 #define SLUICE_ABI_MAJOR 1u
-#define SLUICE_ABI_MINOR 2u
+#define SLUICE_ABI_MINOR 3u
 /* No casts in these macros: C++ readers of this header compile with -Wold-style-cast. */
 #define SLUICE_MAKE_ABI(major, minor) (((major) << 16u) | (minor))
 #define SLUICE_ABI_VERSION SLUICE_MAKE_ABI(SLUICE_ABI_MAJOR, SLUICE_ABI_MINOR)
@@ -409,6 +409,7 @@ typedef struct SluiceSolid {
 #define SLUICE_MAX_DRAINS 16u
 #define SLUICE_MAX_FIELDS 16u
 #define SLUICE_MAX_BODIES 16u
+#define SLUICE_MAX_FLUIDS 8u /* since ABI 1.3 */
 
 typedef enum SluiceOpening { SLUICE_OPENING_DISC = 0, SLUICE_OPENING_RECTANGLE = 1 } SluiceOpening;
 
@@ -420,7 +421,8 @@ typedef struct SluiceEmitter {
     float width, height; /* metres; a disc has its diameter in both */
     float speed, rate;   /* m/s, > 0; particles per second, 0: as dense as the fluid at rest */
     float start, stop;   /* seconds of the simulation's time; stop 0: never */
-    uint32_t reserved[7];
+    uint32_t fluid;      /* since ABI 1.3: what comes out of it, as in SluiceSimulation::particle_fluids */
+    uint32_t reserved[6];
 } SluiceEmitter;
 
 typedef enum SluiceRegion { SLUICE_REGION_SPHERE = 0, SLUICE_REGION_BOX = 1 } SluiceRegion;
@@ -482,6 +484,15 @@ typedef struct SluiceMesh {
     uint32_t reserved[6];
 } SluiceMesh;
 
+/* Since ABI 1.3. What the particles of one of several fluids are made of; all have the same volume at rest. Stands in
+ * an array, so its size is for good. */
+typedef struct SluiceFluidKind {
+    float density;           /* at rest, of water at rest; the heaviest is at most 16 times as dense as the lightest */
+    float viscosity;         /* of XSPH, 0 to 1; between two fluids their mean */
+    float tension, adhesion; /* m/s^2; between two fluids the geometric mean of their tensions */
+    uint32_t reserved[4];    /* zero */
+} SluiceFluidKind;
+
 /* A fluid that the renderer lets flow by itself; docs/simulation.md has every number. Metres, seconds. Arrays are
  * tightly packed and copied during the call. */
 typedef struct SluiceSimulation {
@@ -531,6 +542,12 @@ typedef struct SluiceSimulation {
     float foam_crest[2];    /* curvature of a breaking crest, summed over neighbours; 2, 8 */
     float foam_energy[2];   /* half the square of the speed, m^2/s^2; 5, 50 */
     uint32_t foam_reserved; /* zero */
+
+    /* ABI 1.2 ends here. */
+    const SluiceFluidKind* fluids;   /* none: one of density 1, with the viscosity, tension and adhesion above */
+    const uint32_t* particle_fluids; /* for each particle, its place in `fluids`; none: all are of the first */
+    uint32_t fluid_count;            /* 0 to SLUICE_MAX_FLUIDS */
+    uint32_t particle_fluid_count;   /* 0, or particle_count */
 } SluiceSimulation;
 
 typedef struct SluiceSimulationStats {
@@ -587,6 +604,10 @@ typedef struct SluiceFlow {
     float viscosity, vorticity, tension, adhesion;
     uint32_t emitter_count; /* at most as many as SluiceSimulation had; those beyond are shut */
     SluiceEmitter emitters[SLUICE_MAX_EMITTERS];
+
+    /* ABI 1.2 ends here. */
+    uint32_t fluid_count; /* 0: all flow on as they did; else as many as SluiceSimulation had, and */
+    SluiceFluidKind fluids[SLUICE_MAX_FLUIDS]; /* each with the density that it had */
 } SluiceFlow;
 
 /* ------------------------------------------------------------------------------------------------- statistics -- */

@@ -27,6 +27,9 @@ void eachArray(Simulation& s, bool velocities, const Each& each) {
     each("meshes", s.meshes, std::size_t{s.mesh_count}, std::size_t{kMostMeshes});
     each("mesh_corners", s.mesh_corners, triples(s.mesh_corner_count), triples(kMostMeshCorners));
     each("mesh_indices", s.mesh_indices, triples(s.mesh_triangle_count), triples(kMostMeshTriangles));
+    each("fluids", s.fluids, std::size_t{s.fluid_count}, std::size_t{SLUICE_MAX_FLUIDS});
+    each("particle_fluids", s.particle_fluids, std::size_t{s.particle_fluid_count},
+         std::size_t{kMostSimulatedParticles});
 }
 
 /// Every array is there and within its bound, and there is fluid or an emitter: what must hold before anything reads
@@ -38,5 +41,6 @@ void eachArray(Simulation& s, bool velocities, const Each& each) {
 
 /// UNSUPPORTED, with what it lacks named, if the simulation asks for more than a renderer of this table knows.
 [[nodiscard]] Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& api);
+[[nodiscard]] Status checkServed(const SluiceFlow& flow, const SluiceRendererApi& api);
 
 }  // namespace sluice

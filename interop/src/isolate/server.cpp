@@ -141,13 +141,16 @@ class Server {
     }
     Message handle(const SetFlow& call, UniqueFd& /*with*/) {
         auto error = sized<SluiceError>();
-        SluiceResult result = SLUICE_ERROR_UNSUPPORTED;
-        if (api_.set_flow != nullptr) {
-            result = api_.set_flow(renderer_, &call.flow, &error);
-        } else {
+        if (api_.set_flow == nullptr) {
             writeAbiError(&error,
                           {SLUICE_ERROR_UNSUPPORTED, "the plugin", "does not know set_flow", "use a newer one"});
+            return said(SLUICE_ERROR_UNSUPPORTED, error);
         }
+        if (const Status served = checkServed(call.flow, api_); !served) {
+            writeAbiError(&error, served.error());
+            return said(served.error().code, error);
+        }
+        const SluiceResult result = api_.set_flow(renderer_, &call.flow, &error);
         return said(result, error);
     }
     Message handle(const ResetSimulation& call, UniqueFd& /*with*/);

@@ -82,7 +82,7 @@ Status LiveSimulation::start(const LiveSetup& setup) {
         return solver.error();
     }
     solver_ = std::move(solver).value();
-    if (Status status = solver_->setParticles(setup.position, setup.velocity); !status) {
+    if (Status status = solver_->setParticles(setup.position, setup.velocity, setup.fluid); !status) {
         return status;
     }
     Result<std::unique_ptr<OutputSlots>> slots = OutputSlots::create(
@@ -178,10 +178,14 @@ Status LiveSimulation::setFlow(const FlowSettings& flow) {
     }
     SimulationSettings changed = settings_;
     apply(flow, changed);
+    if (Status status = checkChange(settings_.fluids, changed.fluids); !status) {
+        return status;
+    }
     if (Status status = checkSettings(changed); !status) {
         return status;
     }
     flow_ = std::make_unique<FlowSettings>(flow);
+    flow_->fluids = settings_.fluids = changed.fluids;  // all of them: the solver may know a list of one as none
     return {};
 }
 

@@ -35,6 +35,7 @@ namespace sluice::vk {
 struct LiveSetup {
     SimulationSettings settings;
     std::vector<float> position, velocity;  ///< triples; velocity may be empty
+    std::vector<std::uint32_t> fluid;       ///< of each particle, of settings.fluids; may be empty
     double longest_step = 1.0;
     std::uint32_t frames_in_flight = 1;
     std::uint32_t most_particles = 0;  ///< that there will ever be; room of the output slots
@@ -155,7 +156,7 @@ class LiveSimulation {
     double longest_step_;
     std::uint32_t most_particles_;
     bool shaped_, foams_;
-    SimulationSettings settings_;  ///< as they were given
+    SimulationSettings settings_;  ///< as they were given, but for what has become of the fluids
     BodyReports reports_;
     VkSemaphore semaphore_ = VK_NULL_HANDLE;
     std::unique_ptr<Solver> solver_;

@@ -147,6 +147,7 @@ Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
     if (s.overshoot != 0.0F) {
         to.overshoot = s.overshoot < 0.0F ? 0.0F : s.overshoot;
     }
+    to.fluids = readFluids(s.fluids, s.fluid_count);
     if (Status status = readSources(s, to.sources); !status) {
         return status.error();
     }
@@ -174,6 +175,7 @@ Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
     if (s.velocity != nullptr) {
         setup.velocity.assign(s.velocity, s.velocity + floats);
     }
+    setup.fluid.assign(s.particle_fluids, s.particle_fluids + s.particle_fluid_count);
     return setup;
 }
 
@@ -206,6 +208,10 @@ Result<FlowSettings> readFlow(const SluiceFlow* flow) {
         return invalid("flow.emitters",
                        fmt::format("expected at most {}, found {}", SLUICE_MAX_EMITTERS, given.emitter_count));
     }
+    if (given.fluid_count > SLUICE_MAX_FLUIDS) {
+        return invalid("flow.fluids",
+                       fmt::format("expected at most {}, found {}", SLUICE_MAX_FLUIDS, given.fluid_count));
+    }
     auto emitters = sized<SluiceSimulation>();
     emitters.emitter_count = given.emitter_count;
     emitters.emitters = &given.emitters[0];
@@ -213,8 +219,14 @@ Result<FlowSettings> readFlow(const SluiceFlow* flow) {
     if (Status status = readSources(emitters, sources); !status) {
         return status.error();
     }
-    return FlowSettings{given.iterations, triple(given.gravity),      given.viscosity, given.vorticity, given.tension,
-                        given.adhesion,   std::move(sources.emitters)};
+    return FlowSettings{given.iterations,
+                        triple(given.gravity),
+                        given.viscosity,
+                        given.vorticity,
+                        given.tension,
+                        given.adhesion,
+                        std::move(sources.emitters),
+                        readFluids(&given.fluids[0], given.fluid_count)};
 }
 
 Result<LiveStart> readStart(const SluiceStart* start) {

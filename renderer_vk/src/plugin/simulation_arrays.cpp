@@ -12,7 +12,7 @@ namespace sluice::vk {
 namespace {
 
 static_assert(kMaxEmitters == SLUICE_MAX_EMITTERS && kMaxDrains == SLUICE_MAX_DRAINS &&
-              kMaxFields == SLUICE_MAX_FIELDS && kMaxBodies == SLUICE_MAX_BODIES);
+              kMaxFields == SLUICE_MAX_FIELDS && kMaxBodies == SLUICE_MAX_BODIES && kMaxFluids == SLUICE_MAX_FLUIDS);
 
 Error unknown(const char* array, std::size_t index, const char* what, std::uint32_t value) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("simulation.{}", array),
@@ -69,6 +69,14 @@ Result<Body> bodyOf(const SluiceSimulation& s, std::size_t index) {
 
 }  // namespace
 
+std::vector<Fluid> readFluids(const SluiceFluidKind* fluids, std::size_t count) {
+    std::vector<Fluid> read;
+    for (const SluiceFluidKind& fluid : std::span(fluids, count)) {
+        read.push_back({fluid.density, fluid.viscosity, fluid.tension, fluid.adhesion});
+    }
+    return read;
+}
+
 Status readSources(const SluiceSimulation& simulation, SourceSettings& sources) {
     const SluiceSimulation& s = simulation;
     for (std::size_t i = 0; i < s.emitter_count; ++i) {
@@ -77,7 +85,7 @@ Status readSources(const SluiceSimulation& simulation, SourceSettings& sources) 
             return unknown("emitters", i, "the shape", e.shape);
         }
         sources.emitters.push_back({e.shape == SLUICE_OPENING_DISC, triple(e.centre), triple(e.direction), e.width,
-                                    e.height, e.speed, e.rate, e.start, e.stop});
+                                    e.height, e.speed, e.rate, e.start, e.stop, e.fluid});
     }
     for (std::size_t i = 0; i < s.drain_count; ++i) {
         const SluiceDrain& drain = s.drains[i];

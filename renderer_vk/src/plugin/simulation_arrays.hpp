@@ -15,6 +15,7 @@ namespace sluice::vk {
     return {values[0], values[1], values[2]};
 }
 
+[[nodiscard]] std::vector<Fluid> readFluids(const SluiceFluidKind* fluids, std::size_t count);
 [[nodiscard]] Status readSources(const SluiceSimulation& simulation, SourceSettings& sources);
 [[nodiscard]] Result<std::vector<Body>> readBodies(const SluiceSimulation& simulation);
 /// Computes the distances. `settings` is final in all but its meshes, and is checked for it.

@@ -59,6 +59,17 @@ Status checkFluids(std::span<const Fluid> fluids) {
     return {};
 }
 
+Status checkFluids(const SimulationSettings& settings) {
+    const std::size_t known = std::max<std::size_t>(settings.fluids.size(), 1);
+    for (std::size_t i = 0; i < settings.sources.emitters.size(); ++i) {
+        if (settings.sources.emitters[i].fluid >= known) {
+            return wrong(fmt::format("simulation: emitter {}", i), fmt::format("a fluid below {}", known),
+                         fmt::format("{}", settings.sources.emitters[i].fluid));
+        }
+    }
+    return checkFluids(std::span(settings.fluids));
+}
+
 Status checkFluidNumbers(const SimulationSettings& settings, std::span<const std::uint32_t> fluids,
                          std::size_t particles) {
     if (!fluids.empty() && fluids.size() != particles) {
@@ -71,10 +82,19 @@ Status checkFluidNumbers(const SimulationSettings& settings, std::span<const std
         return wrong(fmt::format("particle {}", unknown - fluids.begin()), fmt::format("a fluid below {}", known),
                      fmt::format("{}", *unknown));
     }
-    for (std::size_t i = 0; i < settings.sources.emitters.size(); ++i) {
-        if (settings.sources.emitters[i].fluid >= known) {
-            return wrong(fmt::format("simulation: emitter {}", i), fmt::format("a fluid below {}", known),
-                         fmt::format("{}", settings.sources.emitters[i].fluid));
+    return {};
+}
+
+Status checkChange(std::span<const Fluid> before, std::span<const Fluid> after) {
+    if (after.size() != before.size()) {
+        return wrong("flow: fluids", fmt::format("the {} that it began with", before.size()),
+                     fmt::format("{}", after.size()));
+    }
+    for (std::size_t i = 0; i < before.size(); ++i) {
+        if (after[i].density != before[i].density) {
+            return wrong(fmt::format("flow: fluid {}: density", i),
+                         fmt::format("the {} that it began with", before[i].density),
+                         fmt::format("{}", after[i].density), "what flows keeps its mass");
         }
     }
     return {};

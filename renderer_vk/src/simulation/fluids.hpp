@@ -30,9 +30,13 @@ inline constexpr double kMostDensityRatio = 16.0;
 [[nodiscard]] double densityRatio(std::span<const Fluid> fluids);
 /// The first that is out of its range, named.
 [[nodiscard]] Status checkFluids(std::span<const Fluid> fluids);
+/// Those of the settings, and that every emitter names one of them.
+[[nodiscard]] Status checkFluids(const SimulationSettings& settings);
 /// `fluids`: empty, or one number below the fluids' for each of `particles`.
 [[nodiscard]] Status checkFluidNumbers(const SimulationSettings& settings, std::span<const std::uint32_t> fluids,
                                        std::size_t particles);
+/// Fluids that flow may change in all but their number and their densities: mass is not made.
+[[nodiscard]] Status checkChange(std::span<const Fluid> before, std::span<const Fluid> after);
 /// A single fluid of density 1 as settings without a list of fluids, which need nothing beyond the plain passes.
 [[nodiscard]] SimulationSettings withoutNeedlessFluids(const SimulationSettings& settings);
 

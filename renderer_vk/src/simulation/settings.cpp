@@ -103,6 +103,9 @@ void apply(const FlowSettings& flow, SimulationSettings& settings) {
     settings.tension = flow.tension;
     settings.adhesion = flow.adhesion;
     settings.sources.emitters = flow.emitters;
+    if (!flow.fluids.empty()) {
+        settings.fluids = flow.fluids;
+    }
 }
 
 std::vector<Solid> solidsWithin(const SimulationSettings& settings) {
@@ -160,7 +163,7 @@ Status checkSettings(const SimulationSettings& s) {
         return wrong("simulation: solids", fmt::format("at most {} that reach into the domain", kMaxSolids),
                      fmt::format("{}", within));
     }
-    if (Status status = checkFluids(s.fluids); !status) {
+    if (Status status = checkFluids(s); !status) {
         return status;
     }
     if (Status status = checkBodies(s.bodies, s.low, s.high); !status) {

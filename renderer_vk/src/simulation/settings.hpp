@@ -54,6 +54,7 @@ struct FlowSettings {
     Triple gravity{0, -9.81F, 0};
     float viscosity = 0.02F, vorticity = 0.0F, tension = 0.0F, adhesion = 0.0F;
     std::vector<Emitter> emitters;
+    std::vector<Fluid> fluids;  ///< none: as they are. Else all, and they take the place of the three numbers above
 };
 /// The settings with that in them.
 void apply(const FlowSettings& flow, SimulationSettings& settings);

@@ -248,6 +248,13 @@ Status Solver::setFlow(const FlowSettings& flow) {
     if (const Status status = checkSettings(changed); !status) {
         return status;
     }
+    if (!flow.fluids.empty()) {
+        const std::vector<Fluid> water{Fluid{}};  // what settings without a list stand for
+        if (Status status = checkChange(s.settings.fluids.empty() ? water : s.settings.fluids, flow.fluids); !status) {
+            return status;
+        }
+        changed = withoutNeedlessFluids(changed);
+    }
     if (!flow.emitters.empty() && !s.opened) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "simulation: emitters", "it was begun without one",
                      "begin it with an emitter, and shut that"};
