@@ -118,7 +118,7 @@ Result<simulator::Particles> wholeStart(const scene::Simulation& simulation, con
     if (!start || simulation.fluid.empty()) {
         return start;
     }
-    const Result<simulator::Particles> more = startOfFluid(simulation, setup, seed);
+    Result<simulator::Particles> more = startOfFluid(simulation, setup, seed);
     if (!more) {
         return more;
     }

@@ -57,7 +57,7 @@ Status FoamAge::makeRoom(std::uint32_t identities) {
     if (!made) {
         return made.error();
     }
-    const Status filled = runOnce(device_, [&](VkCommandBuffer commands) {
+    Status filled = runOnce(device_, [&](VkCommandBuffer commands) {
         if (had > 0) {
             const VkBufferCopy whole{0, 0, had};
             device_.fn.vkCmdCopyBuffer(commands, foam_.buffer(), made.value().buffer(), 1, &whole);
