@@ -2,51 +2,10 @@
 #include "glx_caller.hpp"
 
 #include <epoxy/glx.h>
-#include <fcntl.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <csignal>
+#include <array>
 
 namespace sluice::test {
-
-XServer::XServer() {
-    std::array<int, 2> told{};
-    if (::pipe(told.data()) != 0) {
-        return;
-    }
-    constexpr int kTold = 9;
-    posix_spawn_file_actions_t files{};
-    posix_spawn_file_actions_init(&files);
-    posix_spawn_file_actions_adddup2(&files, told[1], kTold);
-    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
-    std::array<std::string, 9> words{
-        "Xvfb", "-displayfd", std::to_string(kTold), "-screen", "0", "640x480x24", "-nolisten", "tcp", "-noreset"};
-    std::array<char*, 10> arguments{};
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        arguments.at(i) = words.at(i).data();
-    }
-    if (::posix_spawnp(&pid_, "Xvfb", &files, nullptr, arguments.data(), environ) != 0) {
-        pid_ = -1;
-    }
-    posix_spawn_file_actions_destroy(&files);
-    ::close(told[1]);
-    for (char letter = 0; ::read(told[0], &letter, 1) == 1 && letter != '\n';) {
-        name_ += letter;
-    }
-    ::close(told[0]);
-    if (!name_.empty()) {
-        name_.insert(0, ":");
-    }
-}
-
-XServer::~XServer() {
-    if (pid_ > 0) {
-        ::kill(pid_, SIGTERM);
-        ::waitpid(pid_, nullptr, 0);
-    }
-}
 
 struct GlxCaller::Impl {
     Display* display = nullptr;
@@ -58,7 +17,7 @@ struct GlxCaller::Impl {
 GlxCaller::GlxCaller(const XServer& server, const Version& version, const Window& window)
     : impl_(std::make_unique<Impl>()) {
     Impl& x = *impl_;
-    x.display = XOpenDisplay(server.name().c_str());
+    x.display = XOpenDisplay(server.display().c_str());
     if (x.display == nullptr) {
         return;
     }

@@ -2,28 +2,12 @@
 // The same engine with a window of an X server of its own.
 #pragma once
 
-#include <sys/types.h>
-
 #include <memory>
-#include <string>
 
 #include "caller.hpp"
+#include "x_server.hpp"
 
 namespace sluice::test {
-
-/// An Xvfb that ends with this object. name() is empty where there is none.
-class XServer {
-  public:
-    XServer();
-    ~XServer();
-    XServer(const XServer&) = delete;
-    XServer& operator=(const XServer&) = delete;
-    [[nodiscard]] const std::string& name() const { return name_; }
-
-  private:
-    pid_t pid_ = -1;
-    std::string name_;
-};
 
 /// A GLX context with a window, current on this thread while it lives.
 class GlxCaller {

@@ -16,7 +16,7 @@ class Glx : public ::testing::Test {
     static void SetUpTestSuite() { server_ = std::make_unique<XServer>(); }
     static void TearDownTestSuite() { server_.reset(); }
     void SetUp() override {
-        if (server_->name().empty()) {
+        if (server_->display().empty()) {
             GTEST_SKIP() << "Xvfb does not run here; apt-get install xvfb";
         }
     }

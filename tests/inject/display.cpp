@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "display.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
@@ -31,44 +29,44 @@ void InjectTest::makeFolder() {
 
 void InjectTest::SetUp() {
     ASSERT_NO_FATAL_FAILURE(makeFolder());
-    std::array<int, 2> ready{};
-    ASSERT_EQ(::pipe(ready.data()), 0);
-    server_ = ::fork();
-    ASSERT_GE(server_, 0);
-    if (server_ == 0) {
-        const std::string fd = std::to_string(ready[1]);
-        const int quiet = ::open("/dev/null", O_RDWR);
-        ::dup2(quiet, STDOUT_FILENO);
-        ::dup2(quiet, STDERR_FILENO);
-        ::execlp("Xvfb", "Xvfb", "-displayfd", fd.c_str(), "-screen", "0", "640x480x24", "-nolisten", "tcp",
-                 static_cast<char*>(nullptr));
-        ::_exit(127);
-    }
-    ::close(ready[1]);
-    std::array<char, 16> number{};
-    const ssize_t length = ::read(ready[0], number.data(), number.size() - 1);
-    ::close(ready[0]);
-    ASSERT_GT(length, 0) << "Xvfb did not start: install the packages of scripts/packages.txt";
-    display_ = ":" + std::string(number.data(), static_cast<std::size_t>(length));
-    display_.erase(display_.find_last_not_of(" \n") + 1);
+    server_ = std::make_unique<sluice::test::XServer>();
+    ASSERT_FALSE(server().empty()) << "Xvfb did not start: install the packages of scripts/packages.txt";
 }
 
 void InjectTest::TearDown() {
-    if (server_ > 0) {
-        ::kill(server_, SIGTERM);
-        ::waitpid(server_, nullptr, 0);
-    }
     std::filesystem::remove_all(folder_);
 }
 
-Outcome InjectTest::run(const std::string& words) const {
+std::string InjectTest::command(const std::string& words) const {
     // The shell itself would report a signal; exec keeps it out of the way.
-    const std::string command = fmt::format(
+    return fmt::format(
         "cd '{0}' && unset SLUICE_PLUGIN LD_PRELOAD && export DISPLAY={1} && exec {2} >'{0}/.out' 2>'{0}/.err'",
-        folder_, display_, words);
-    const int status = std::system(command.c_str());
+        folder_, server(), words);
+}
+
+Outcome InjectTest::outcome(int status) const {
     return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), slurp(folder_ + "/.out"),
             slurp(folder_ + "/.err")};
+}
+
+Outcome InjectTest::run(const std::string& words) const {
+    return outcome(std::system(command(words).c_str()));
+}
+
+Outcome InjectTest::runUntil(const std::string& words, const std::function<void()>& watch) const {
+    const std::string line = command(words);
+    const pid_t process = ::fork();
+    if (process == 0) {
+        ::execl("/bin/sh", "sh", "-c", line.c_str(), static_cast<char*>(nullptr));
+        ::_exit(127);
+    }
+    watch();
+    int status = 0;
+    if (process > 0) {
+        ::kill(process, SIGTERM);
+        ::waitpid(process, &status, 0);
+    }
+    return outcome(status);
 }
 
 void InjectTest::write(const std::string& name, const std::string& text) const {

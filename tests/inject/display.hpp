@@ -3,9 +3,12 @@
 #pragma once
 
 #include <gtest/gtest.h>
-#include <sys/types.h>
 
+#include <functional>
+#include <memory>
 #include <string>
+
+#include "x_server.hpp"
 
 namespace sluice::inject::test {
 
@@ -21,17 +24,23 @@ class InjectTest : public ::testing::Test {
     void TearDown() override;
     /// Shell words.
     Outcome run(const std::string& words) const;
+    /// A program that does not end by itself, until `watch` has seen enough.
+    Outcome runUntil(const std::string& words, const std::function<void()>& watch) const;
     Outcome bare(const std::string& words) const { return run("'" SLUICE_GL_TARGET "' " + words); }
     Outcome injected(const std::string& options, const std::string& words) const {
         return run("'" SLUICE_PROGRAM "' inject " + options + " -- '" SLUICE_GL_TARGET "' " + words);
     }
     /// A folder, and no server yet.
     void makeFolder();
+    /// Its display; empty before SetUp().
+    [[nodiscard]] std::string server() const { return server_ != nullptr ? server_->display() : std::string(); }
     void write(const std::string& name, const std::string& text) const;
 
   private:
-    std::string folder_, display_;
-    pid_t server_ = -1;
+    [[nodiscard]] std::string command(const std::string& words) const;
+    [[nodiscard]] Outcome outcome(int status) const;
+    std::string folder_;
+    std::unique_ptr<sluice::test::XServer> server_;
 };
 
 }  // namespace sluice::inject::test

@@ -4,14 +4,7 @@
 #include <X11/Xlib.h>
 #include <X11/Xutil.h>
 #include <X11/extensions/XTest.h>
-#include <poll.h>
-#include <signal.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include <array>
-#include <cstring>
 #include <thread>
 
 namespace window::test {
@@ -63,43 +56,6 @@ bool until(const std::function<bool()>& condition, std::chrono::seconds longest)
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     }
     return true;
-}
-
-std::unique_ptr<Server> Server::start() {
-    std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) {
-        return nullptr;
-    }
-    // The server writes the number that it took to this descriptor.
-    const std::string number = std::to_string(ends[1]);
-    std::array<const char*, 9> arguments{"Xvfb",       "-displayfd", number.c_str(), "-screen", "0",
-                                         "800x600x24", "-nolisten",  "tcp",          nullptr};
-    posix_spawn_file_actions_t actions{};
-    posix_spawn_file_actions_init(&actions);
-    posix_spawn_file_actions_addclose(&actions, ends[0]);
-    posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, "/dev/null", 1, 0);
-    pid_t process = 0;
-    const int spawned =
-        ::posix_spawnp(&process, "Xvfb", &actions, nullptr, const_cast<char* const*>(arguments.data()), environ);
-    posix_spawn_file_actions_destroy(&actions);
-    ::close(ends[1]);
-    std::string display;
-    pollfd wait{ends[0], POLLIN, 0};
-    char letter = 0;
-    while (spawned == 0 && ::poll(&wait, 1, 30'000) == 1 && ::read(ends[0], &letter, 1) == 1 && letter != '\n') {
-        display += letter;
-    }
-    ::close(ends[0]);
-    if (spawned != 0) {
-        return nullptr;
-    }
-    std::unique_ptr<Server> server(new Server(process, ":" + display));
-    return letter == '\n' ? std::move(server) : nullptr;
-}
-
-Server::~Server() {
-    ::kill(process_, SIGTERM);
-    ::waitpid(process_, nullptr, 0);
 }
 
 Hand::Hand(const std::string& display, const std::string& title) {

@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
-// An X server of the test's own, and a hand on its mouse and keyboard.
+// A hand on the mouse and keyboard of an X server, and an eye on its screen.
 #pragma once
-
-#include <sys/types.h>
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -18,22 +15,6 @@ namespace window::test {
 /// Asks again and again; false when it has not come true in that time.
 [[nodiscard]] bool until(const std::function<bool()>& condition,
                          std::chrono::seconds longest = std::chrono::seconds(60));
-
-/// Xvfb on a display number that is free; ended with the object.
-class Server {
-  public:
-    /// Empty if there is no Xvfb.
-    [[nodiscard]] static std::unique_ptr<Server> start();
-    Server(const Server&) = delete;
-    Server& operator=(const Server&) = delete;
-    ~Server();
-    [[nodiscard]] const std::string& display() const { return display_; }
-
-  private:
-    Server(pid_t process, std::string display) : process_(process), display_(std::move(display)) {}
-    pid_t process_;
-    std::string display_;
-};
 
 struct Rgb {
     int width = 0, height = 0;

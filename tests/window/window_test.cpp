@@ -18,6 +18,7 @@
 #include "picture_file.hpp"
 #include "sample.hpp"
 #include "world.hpp"
+#include "x_server.hpp"
 
 namespace window::test {
 namespace {
@@ -36,11 +37,11 @@ struct Shot {
 class WindowSample : public ::testing::Test {
   protected:
     void SetUp() override {
-        server_ = Server::start();
-        if (server_ == nullptr && std::getenv("SLUICE_REQUIRE_X") == nullptr) {
+        server_ = std::make_unique<sluice::test::XServer>("800x600x24");
+        if (server_->display().empty() && std::getenv("SLUICE_REQUIRE_X") == nullptr) {
             GTEST_SKIP() << "NOT RUN: there is no Xvfb (apt-get install xvfb); SLUICE_REQUIRE_X=1 makes that a failure";
         }
-        ASSERT_NE(server_, nullptr) << "Xvfb does not start, and SLUICE_REQUIRE_X is set";
+        ASSERT_FALSE(server_->display().empty()) << "Xvfb does not start, and SLUICE_REQUIRE_X is set";
     }
 
     void begin(const std::vector<std::string>& arguments) {
@@ -86,7 +87,7 @@ class WindowSample : public ::testing::Test {
         }
     }
 
-    std::unique_ptr<Server> server_;
+    std::unique_ptr<sluice::test::XServer> server_;
     std::unique_ptr<Sample> sample_;
 
   private:
