@@ -108,8 +108,10 @@ std::string sayContext(const Json& context, int number) {
         swaps += fmt::format("{}{} {}", swaps.empty() ? "" : ", ", route, count.get<std::uint64_t>());
     }
     const Json& size = context.at("size");
-    std::string text = fmt::format("context {}: {}, OpenGL {} on {}{}\n", number, context.at("api").get<std::string>(),
-                                   context.at("version").get<std::string>(), context.at("renderer").get<std::string>(),
+    const auto version = context.at("version").get<std::string>();
+    std::string text = fmt::format("context {}: {}, {}{} on {}{}\n", number, context.at("api").get<std::string>(),
+                                   version.starts_with("OpenGL ES") ? "" : "OpenGL ", version,
+                                   context.at("renderer").get<std::string>(),
                                    context.at("ended").get<bool>() ? ", destroyed by the program" : "");
     text += fmt::format("  drawable   {}x{}, depth {} bits, stencil {} bits, {} samples, {} resizes\n",
                         size.at(0).get<std::uint32_t>(), size.at(1).get<std::uint32_t>(),
@@ -122,6 +124,9 @@ std::string sayContext(const Json& context, int number) {
         fmt::format("  in all     {} per frame beside the program's own work (the hooks of its calls not counted)\n",
                     millisecondsEach(spent.at("sum"), spent.at("frames").get<double>()));
     const Json& leaks = context.at("state_leaks");
+    if (context.at("in_own_context").get<bool>()) {
+        return text + "  GL state   untouched: the fluid is drawn in a context of its own\n";
+    }
     text += fmt::format("  GL state   {} frames compared before and after: {}\n",
                         context.at("audited_frames").get<std::uint64_t>(),
                         leaks.empty() ? "no difference" : fmt::format("{} DIFFERENCES", leaks.size()));

@@ -58,11 +58,12 @@ typedef struct SluiceInjectPayload {
     void (*list_mode)(uint32_t mode); /* glNewList's, 0 at glEndList */
     void (*draw)(uint32_t vertices);  /* outside glBegin and glEnd; 0: nobody knows how many */
     void (*clear)(uint32_t mask);
+    void (*blocks_changed)(void);        /* after: what the uniform blocks of a program hold may be something else */
     void (*take_error)(uint32_t* error); /* sets it if the payload took an error of the program's own from the driver */
     void (*attributes_popped)(void);     /* after: the matrix mode may be another */
     void (*list_called)(void);           /* after, likewise */
-    void (*program_linked)(uint32_t program);  /* after */
-    void (*program_deleted)(uint32_t program); /* after */
+    void (*program_linked)(uint32_t program);                           /* after */
+    void (*program_deleted)(uint32_t program);                          /* after */
     void (*framebuffers_deleted)(int32_t count, const uint32_t* names); /* after: one that was bound is not any more */
     void (*context_created)(uint32_t api, void* context);               /* after; its address may be known already */
     void (*display_ended)(void* display);                               /* of EGL, with its contexts */

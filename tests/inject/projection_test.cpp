@@ -95,6 +95,65 @@ TEST(Projection, WhatIsNoCameraIsRejectedWithItsReason) {
               "it is mirrored");
 }
 
+/// As glClipControl(GL_ZERO_TO_ONE) wants it: the planes at 0 and 1, or, reversed, at 1 and 0.
+Matrix zeroToOne(Matrix m, bool reversed) {
+    for (std::size_t column = 0; column < 4; ++column) {
+        const float z = reversed ? -m.at(4 * column + 2) : m.at(4 * column + 2);
+        m.at(4 * column + 2) = 0.5F * (z + m.at(4 * column + 3));
+    }
+    return m;
+}
+
+TEST(Projection, DepthFromZeroToOneHasTheSamePlanes) {
+    const Matrix lens = frustum(-1, 1, -1, 1, 2, 100);
+    const Reading reading = readMatrix(zeroToOne(lens, false), {.zero_to_one = true});
+    ASSERT_EQ(reading.shape, Shape::Perspective) << reading.reason;
+    EXPECT_NEAR(reading.lens.near_plane, 2, 1e-4);
+    EXPECT_NEAR(reading.lens.far_plane, 100, 1e-2);
+    EXPECT_FALSE(reading.lens.reversed);
+    expectSame(projectionOf(reading.lens), lens);
+    expectSame(projectionOf(reading.lens, true), zeroToOne(lens, false));
+}
+
+TEST(Projection, ReversedDepthIsKnownByItsPlanesItsRangeAndItsFarPlaneAtInfinity) {
+    const Matrix lens = frustum(-1, 1, -1, 1, 2, 100);
+    const Reading upside_down = readMatrix(zeroToOne(lens, true), {.zero_to_one = true, .greater = true});
+    ASSERT_EQ(upside_down.shape, Shape::Perspective) << upside_down.reason;
+    EXPECT_TRUE(upside_down.lens.reversed);
+    EXPECT_NEAR(upside_down.lens.near_plane, 2, 1e-4);
+    EXPECT_NEAR(upside_down.lens.far_plane, 100, 1e-2);
+    EXPECT_TRUE(readMatrix(lens, {.range_reversed = true}).lens.reversed);
+    EXPECT_FALSE(readMatrix(zeroToOne(lens, true), {.zero_to_one = true, .range_reversed = true}).lens.reversed);
+    Matrix endless = frustum(-1, 1, -1, 1, 2, 100);
+    endless[10] = 0;
+    endless[14] = 2;
+    const Reading infinite = readMatrix(endless, {.zero_to_one = true});
+    ASSERT_EQ(infinite.shape, Shape::Perspective) << infinite.reason;
+    EXPECT_TRUE(infinite.lens.reversed);
+    EXPECT_NEAR(infinite.lens.near_plane, 2, 1e-5);
+    EXPECT_NEAR(infinite.lens.far_plane, 2 * kFarOfInfinite, 1);
+    // Where nothing speaks for it, such a matrix is something else.
+    EXPECT_EQ(readMatrix(zeroToOne(lens, true)).shape, Shape::Rejected);
+}
+
+TEST(Projection, EitherWayOfWritingGivesTheSameCamera) {
+    const Matrix view = product(turn(35), translation(1, -2, -7));
+    for (const double near : {0.05, 0.1, 0.5, 2.0}) {
+        const Matrix lens = frustum(-0.7 * near, 0.7 * near, -0.5 * near, 0.5 * near, near, 512);
+        for (const Matrix& matrix : {lens, product(lens, view)}) {
+            const Reading columns = readEitherWay(matrix);
+            const Reading rows = readEitherWay(transposed(matrix));
+            ASSERT_EQ(columns.shape, Shape::Perspective) << columns.reason;
+            ASSERT_EQ(rows.shape, Shape::Perspective) << rows.reason;
+            EXPECT_FALSE(columns.transposed);
+            EXPECT_TRUE(rows.transposed) << near;
+            EXPECT_TRUE(sameLens(columns.lens, rows.lens));
+            expectSame(columns.view, rows.view);
+        }
+    }
+    EXPECT_EQ(readEitherWay(ortho()).shape, Shape::Flat);
+}
+
 TEST(Projection, RigidPartTakesOneScaleOutAndRefusesTheRest) {
     const Rigid rigid = rigidPart(product(turn(20), product(translation(1, 2, 3), scaling(2))));
     ASSERT_TRUE(rigid.valid);

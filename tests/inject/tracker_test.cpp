@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "matrices.hpp"
+#include "tracker/refusal.hpp"
 
 namespace sluice::inject::test {
 namespace {
@@ -186,7 +187,7 @@ TEST(FrameTracker, AProgramOfShadersIsKnownByItsMatrices) {
         moments.clear();
         tracker.useProgram(3);
         for (int i = 0; i < 4; ++i) {
-            tracker.uniform(3, product(kLens, translation(static_cast<float>(i), 0, -5)), UniformName::Unknown);
+            tracker.uniform(3, 0, product(kLens, translation(static_cast<float>(i), 0, -5)), UniformName::Unknown);
             moments.push_back(tracker.draw(300));
         }
         tracker.useProgram(7);
@@ -202,12 +203,41 @@ TEST(FrameTracker, AProgramOfShadersIsKnownByItsMatrices) {
 TEST(FrameTracker, AViewThatIsNamedSoGoesWithAPureProjection) {
     FrameTracker tracker;
     tracker.useProgram(1);
-    tracker.uniform(1, kLens, UniformName::Unknown);
-    tracker.uniform(1, translation(0, -2, -8), UniformName::View);
-    tracker.uniform(1, translation(5, 5, 5), UniformName::Unknown);
+    tracker.uniform(1, 0, kLens, UniformName::Unknown);
+    tracker.uniform(1, 1, translation(0, -2, -8), UniformName::View);
+    tracker.uniform(1, 2, translation(5, 5, 5), UniformName::Unknown);
+    tracker.uniform(1, 3, translation(7, 7, 7), UniformName::ModelView);
     (void)tracker.draw(10);
     ASSERT_TRUE(tracker.camera());
     EXPECT_EQ(tracker.camera()->view, translation(0, -2, -8));
+}
+
+TEST(FrameTracker, MatricesThatAreWrittenRowByRowAreTheSameCamera) {
+    FrameTracker tracker;
+    tracker.useProgram(1);
+    tracker.uniform(1, 0, transposed(kLens), UniformName::Unknown);
+    tracker.uniform(1, 1, transposed(translation(0, -2, -8)), UniformName::View);
+    (void)tracker.draw(10);
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 1e-3);
+    EXPECT_EQ(tracker.camera()->view, translation(0, -2, -8));
+}
+
+TEST(FrameTracker, AnOverlayMayBeDrawnByTheProgramOfTheScene) {
+    FrameTracker tracker;
+    std::vector<bool> moments;
+    tracker.useProgram(3);
+    for (int frame = 0; frame < 2; ++frame) {
+        moments.clear();
+        tracker.uniform(3, 5, kLens, UniformName::Unknown);
+        moments.push_back(tracker.draw(300));
+        tracker.uniform(3, 6, ortho(), UniformName::Unknown);  // another matrix of the same program
+        moments.push_back(tracker.draw(300));
+        tracker.uniform(3, 5, ortho(), UniformName::Unknown);
+        moments.push_back(tracker.draw(4));
+        tracker.endFrame();
+    }
+    EXPECT_EQ(moments, (std::vector<bool>{false, false, true}));
 }
 
 TEST(FrameTracker, DrawsIntoFramebuffersOfTheProgramsOwnDoNotCountBesideAScene) {
@@ -258,6 +288,21 @@ TEST(FrameTracker, ASceneInAFramebufferOfTheProgramsOwnGetsItsFluidBeforeItIsRea
     EXPECT_EQ(tracker.target(), 0U);
 }
 
+TEST(FrameTracker, AFramebufferOutOfReachIsNoTarget) {
+    FrameTracker tracker;
+    tracker.stayInTheWindow();
+    tracker.useProgram(1);
+    for (int frame = 0; frame < 2; ++frame) {
+        EXPECT_FALSE(tracker.bindFramebuffer(4));
+        tracker.uniform(1, 0, kLens, UniformName::Unknown);
+        (void)tracker.draw(5000);
+        EXPECT_FALSE(tracker.bindFramebuffer(0));
+        tracker.endFrame();
+    }
+    EXPECT_EQ(tracker.target(), 0U);
+    EXPECT_FALSE(tracker.camera());
+}
+
 TEST(FrameTracker, WhatADisplayListRecordsDoesNotHappen) {
     FrameTracker tracker;
     Fixed fixed(tracker);
@@ -306,17 +351,17 @@ TEST(FrameTracker, AProgramThatIsLinkedAnewOrDeletedHasNoCamera) {
         tracker.endFrame();
         return !tracker.lastFrame().lenses.empty();
     };
-    tracker.uniform(3, kLens, UniformName::Unknown);
+    tracker.uniform(3, 0, kLens, UniformName::Unknown);
     EXPECT_TRUE(frame(3));
     tracker.programLinked(3);
     EXPECT_FALSE(frame(3)) << "its uniforms are zero";
-    tracker.uniform(3, kLens, UniformName::Unknown);
+    tracker.uniform(3, 0, kLens, UniformName::Unknown);
     EXPECT_TRUE(frame(3));
     tracker.programDeleted(3);
     EXPECT_TRUE(frame(3)) << "in use, it lives on";
     EXPECT_FALSE(frame(0));
     EXPECT_FALSE(frame(3)) << "another one of that name";
-    tracker.uniform(4, kLens, UniformName::Unknown);
+    tracker.uniform(4, 0, kLens, UniformName::Unknown);
     tracker.programDeleted(4);
     EXPECT_FALSE(frame(4));
 }
@@ -359,7 +404,7 @@ TEST(FrameTracker, TheProfileHasTheLastWord) {
                           .near_plane = 0.5,
                           .far_plane = std::nullopt});
     Fixed fixed(tracker);
-    tracker.uniform(3, frustum(-1, 1, -1, 1, 1, 10), UniformName::Unknown);
+    tracker.uniform(3, 0, frustum(-1, 1, -1, 1, 1, 10), UniformName::Unknown);
     tracker.useProgram(3);
     fixed.project(kLens);
     fixed.model(translation(0, 0, -5));
@@ -370,6 +415,32 @@ TEST(FrameTracker, TheProfileHasTheLastWord) {
     EXPECT_EQ(tracker.camera()->lens.near_plane, 0.5);
     EXPECT_NEAR(tracker.camera()->lens.far_plane, 512, 5);
     EXPECT_EQ(tracker.camera()->view, kIdentity);
+}
+
+TEST(FrameTracker, AMatrixThatIsWrittenOnceIsReadAgainWhenTheRulesOfDepthChange) {
+    FrameTracker tracker;
+    tracker.useProgram(1);
+    tracker.uniform(1, 0, kLens, UniformName::Unknown);
+    tracker.depth({.range_reversed = true});
+    (void)tracker.draw(10);
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_TRUE(tracker.camera()->lens.reversed);
+}
+
+TEST(Refusal, NamesReversedDepthOneEyeOfStereoAndTheMissingCamera) {
+    FoundCamera camera;
+    camera.lens = {.near_plane = 0.1, .far_plane = 50};
+    EXPECT_EQ(refusal(camera, {}), "");
+    EXPECT_EQ(refusal(camera, {.stereo = true, .draw_buffer = 0x0405}), "") << "GL_BACK: the same for both eyes";
+    EXPECT_EQ(refusal(camera, {.stereo = false, .draw_buffer = 0x0402}), "");
+    EXPECT_NE(refusal(camera, {.stereo = true, .draw_buffer = 0x0402}).find("stereo: "), std::string::npos);
+    camera.lens.reversed = true;
+    EXPECT_NE(refusal(camera, {}).find("reversed depth: near 0.1 lies at window depth 1"), std::string::npos);
+    EXPECT_EQ(noCamera(299, {}), "");
+    FrameSummary flat;
+    flat.flat_draws = 7;
+    EXPECT_NE(noCamera(300, flat).find("in 300 frames, 7 orthographic or flat draws"), std::string::npos);
+    EXPECT_EQ(noCamera(301, flat), "") << "it is said once";
 }
 
 TEST(FrameTracker, AFrameWithoutPerspectiveKeepsTheLastCamera) {

@@ -206,7 +206,10 @@ void listCalled() {
 }
 
 void useProgram(std::uint32_t program) {
-    withSession([&](Session& at) { at.tracker().useProgram(program); });
+    withSession([&](Session& at) {
+        at.tracker().useProgram(program);
+        at.blocksChanged();
+    });
 }
 
 // Programs are common to contexts, and one that links them may never draw.
@@ -264,6 +267,10 @@ void clear(std::uint32_t mask) {
     withSession([&](Session& at) { at.beforeClear(mask); });
 }
 
+void blocksChanged() {
+    withSession([](Session& at) { at.blocksChanged(); });
+}
+
 void takeError(std::uint32_t* error) {
     *error = takeKeptError();
 }
@@ -282,6 +289,7 @@ const SluiceInjectPayload kTable{sizeof(SluiceInjectPayload),
                                  listMode,
                                  draw,
                                  clear,
+                                 blocksChanged,
                                  takeError,
                                  attributesPopped,
                                  listCalled,

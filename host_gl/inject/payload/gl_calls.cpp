@@ -31,14 +31,21 @@ std::int32_t integer(const GlCalls& gl, GLenum name) {
     return value;
 }
 
-/// Without a call that would be an error, of which a debug callback of the program's would hear.
-bool hasFixedFunction(const GlCalls& gl, std::string_view version) {
+/// Of "4.5 (Compatibility Profile) Mesa 22.3.6", "OpenGL ES 3.2 Mesa 22.3.6" and "OpenGL ES-CM 1.1".
+std::int32_t numberOf(const std::string& version) {
+    const std::size_t digit = version.find_first_of("0123456789");
     int major = 0;
     int minor = 0;
-    if (std::sscanf(std::string(version).c_str(), "%d.%d", &major, &minor) != 2 || 10 * major + minor < 31) {
+    const bool found = digit != std::string::npos && std::sscanf(version.c_str() + digit, "%d.%d", &major, &minor) == 2;
+    return found ? 10 * major + minor : 0;
+}
+
+/// Without a call that would be an error, of which a debug callback of the program's would hear.
+bool hasFixedFunction(const GlCalls& gl, std::int32_t version) {
+    if (version < 31) {
         return true;
     }
-    if (10 * major + minor == 31) {
+    if (version == 31) {
         std::array<float, 16> projection{};  // as many extension lists as drivers; the question itself
         gl.getFloatv(GL_PROJECTION_MATRIX, projection.data());
         return gl.getError() == GL_NO_ERROR;
@@ -63,6 +70,14 @@ GlCalls loadGlCalls(const SluiceInjectShim& shim) {
     look(shim, "glGetUniformLocation", gl.getUniformLocation);
     look(shim, "glGetUniformfv", gl.getUniformfv);
     look(shim, "glReadPixels", gl.readPixels);
+    look(shim, "glGetActiveUniformsiv", gl.getActiveUniformsiv);
+    look(shim, "glGetActiveUniformBlockiv", gl.getActiveUniformBlockiv);
+    look(shim, "glGetIntegeri_v", gl.getIntegeri);
+    look(shim, "glBindBuffer", gl.bindBuffer);
+    look(shim, "glGetBufferParameteriv", gl.getBufferParameteriv);
+    look(shim, "glGetBufferSubData", gl.getBufferSubData);
+    look(shim, "glMapBufferRange", gl.mapBufferRange);
+    look(shim, "glUnmapBuffer", gl.unmapBuffer);
     look(shim, "glXGetCurrentContext", gl.glxContext);
     look(shim, "glXGetCurrentDisplay", gl.glxDisplay);
     look(shim, "glXGetCurrentDrawable", gl.glxDrawable);
@@ -71,6 +86,13 @@ GlCalls loadGlCalls(const SluiceInjectShim& shim) {
     look(shim, "eglGetCurrentDisplay", gl.eglDisplay);
     look(shim, "eglGetCurrentSurface", gl.eglSurface);
     look(shim, "eglQuerySurface", gl.eglSurfaceValue);
+    look(shim, "eglChooseConfig", gl.eglConfigs);
+    look(shim, "eglGetConfigAttrib", gl.eglConfigValue);
+    look(shim, "eglBindAPI", gl.eglBindApi);
+    look(shim, "eglQueryAPI", gl.eglQueryApi);
+    look(shim, "eglCreateContext", gl.eglMakeContext);
+    look(shim, "eglDestroyContext", gl.eglEndContext);
+    look(shim, "eglMakeCurrent", gl.eglUse);
     return gl;
 }
 
@@ -127,8 +149,11 @@ ContextFacts contextFacts(const GlCalls& gl) {
     ContextFacts facts;
     facts.renderer = text(gl, GL_RENDERER);
     facts.version = text(gl, GL_VERSION);
+    facts.number = numberOf(facts.version);
     facts.embedded = std::string_view(facts.version).starts_with("OpenGL ES");
-    facts.compatibility = !facts.embedded && hasFixedFunction(gl, facts.version);
+    facts.compatibility = facts.embedded ? facts.number < 20 : hasFixedFunction(gl, facts.number);
+    facts.clip_control = !facts.embedded && (facts.number >= 45 || epoxy_has_gl_extension("GL_ARB_clip_control"));
+    facts.stereo = !facts.embedded && integer(gl, GL_STEREO) != 0;
     facts.samples = integer(gl, GL_SAMPLES);
     if (facts.compatibility || facts.embedded || gl.getAttachment == nullptr) {
         facts.depth_bits = integer(gl, GL_DEPTH_BITS);

@@ -26,6 +26,17 @@ struct GlCalls {
     void (*readPixels)(std::int32_t, std::int32_t, std::int32_t, std::int32_t, std::uint32_t, std::uint32_t,
                        void*) = nullptr;
 
+    // Uniform blocks; all of them or none.
+    void (*getActiveUniformsiv)(std::uint32_t, std::int32_t, const std::uint32_t*, std::uint32_t,
+                                std::int32_t*) = nullptr;
+    void (*getActiveUniformBlockiv)(std::uint32_t, std::uint32_t, std::uint32_t, std::int32_t*) = nullptr;
+    void (*getIntegeri)(std::uint32_t, std::uint32_t, std::int32_t*) = nullptr;
+    void (*bindBuffer)(std::uint32_t, std::uint32_t) = nullptr;
+    void (*getBufferParameteriv)(std::uint32_t, std::uint32_t, std::int32_t*) = nullptr;
+    void (*getBufferSubData)(std::uint32_t, std::intptr_t, std::intptr_t, void*) = nullptr;  ///< not in OpenGL ES
+    void* (*mapBufferRange)(std::uint32_t, std::intptr_t, std::intptr_t, std::uint32_t) = nullptr;
+    std::uint8_t (*unmapBuffer)(std::uint32_t) = nullptr;
+
     void* (*glxContext)() = nullptr;
     void* (*glxDisplay)() = nullptr;
     unsigned long (*glxDrawable)() = nullptr;
@@ -34,6 +45,13 @@ struct GlCalls {
     void* (*eglDisplay)() = nullptr;
     void* (*eglSurface)(int) = nullptr;
     unsigned (*eglSurfaceValue)(void*, void*, int, int*) = nullptr;
+    unsigned (*eglConfigs)(void*, const int*, void**, int, int*) = nullptr;
+    unsigned (*eglConfigValue)(void*, void*, int, int*) = nullptr;
+    unsigned (*eglBindApi)(unsigned) = nullptr;
+    unsigned (*eglQueryApi)() = nullptr;
+    void* (*eglMakeContext)(void*, void*, void*, const int*) = nullptr;
+    unsigned (*eglEndContext)(void*, void*) = nullptr;
+    unsigned (*eglUse)(void*, void*, void*, void*) = nullptr;
 };
 
 [[nodiscard]] GlCalls loadGlCalls(const SluiceInjectShim& shim);
@@ -56,7 +74,8 @@ struct DrawableSize {
 /// What a context and its default framebuffer are.
 struct ContextFacts {
     std::string renderer, version;
-    bool embedded = false, compatibility = false;
+    std::int32_t number = 0;  ///< 10 * major + minor
+    bool embedded = false, compatibility = false, stereo = false, clip_control = false;
     std::int32_t depth_bits = 0, stencil_bits = 0, samples = 0;
 };
 [[nodiscard]] ContextFacts contextFacts(const GlCalls& gl);

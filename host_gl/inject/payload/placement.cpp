@@ -103,7 +103,7 @@ PlacedCamera Placement::camera(const FoundCamera& found) const {
     Lens lens = found.lens;
     lens.near_plane *= metres_;
     lens.far_plane *= metres_;
-    return {product(inMetres(found.view, metres_), from_fluid_), projectionOf(lens)};
+    return {product(inMetres(found.view, metres_), from_fluid_), projectionOf(lens, found.zero_to_one)};
 }
 
 }  // namespace sluice::inject

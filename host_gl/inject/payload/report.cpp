@@ -86,6 +86,7 @@ Json sessionJson(Session& session) {
             {"frames_with_fluid_before_overlay", session.earlyFrames()},
             {"fluid", waterJson(session.water())},
             {"failure", session.failure()},
+            {"in_own_context", facts.embedded},
             {"audited_frames", session.audits()},
             {"state_leaks", session.leaks()},
             {"errors_of_the_program", session.errorsOfProgram()},

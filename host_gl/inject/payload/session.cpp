@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "sluice/host_gl/state_snapshot.hpp"
+#include "tracker/refusal.hpp"
 
 namespace sluice::inject {
 
@@ -24,6 +25,7 @@ constexpr std::uint64_t kMostFailures = 120;         // frames in a row that may
 constexpr std::uint64_t kMostFailuresElsewhere = 3;  // before a framebuffer of the program's own is
 constexpr std::uint32_t kMostPrograms = 512;         // names that are looked at once, when the payload comes late
 constexpr std::size_t kMostLeaks = 64;
+constexpr std::uint32_t kMostBlockReads = 64;  // matrices of a frame that are read out of buffers
 
 thread_local std::uint32_t kept_error = 0;
 
@@ -81,6 +83,12 @@ Session::Session(Payload& payload, const CurrentContext& current)
     GLint framebuffer = 0;
     payload.gl.getIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
     (void)tracker_.bindFramebuffer(static_cast<std::uint32_t>(framebuffer));
+    if (facts_.embedded) {
+        tracker_.stayInTheWindow();  // what the own context shares with the program's
+    }
+    has_blocks_ = payload.settings.rules.route != CameraRoute::FixedFunction && hasUniformBlocks(payload.gl, facts_) &&
+                  !(payload.settings.off && payload.settings.report.empty());
+    askDepth();
     scanPrograms();
     forgetErrors(payload.gl);  // what an old context does not know of the above
 }
@@ -121,7 +129,7 @@ void Session::scanPrograms() {
             if (location >= 0) {
                 Matrix matrix{};
                 gl.getUniformfv(program, location, matrix.data());
-                tracker_.uniform(program, matrix, meaningOf(name.data()));
+                tracker_.uniform(program, location, matrix, meaningOf(name.data()));
             }
         }
     }
@@ -147,15 +155,66 @@ UniformName Session::nameOf(std::uint32_t program, std::int32_t location) {
     return known->second;
 }
 
-void Session::uniform(std::uint32_t program, std::int32_t location, const Matrix& matrix) {
-    const std::uint32_t of = program != 0 ? program : tracker_.program();
+bool Session::clipsZeroToOne() const {
+    GLint mode = GL_NEGATIVE_ONE_TO_ONE;
+    if (facts_.clip_control) {
+        payload_.gl.getIntegerv(GL_CLIP_DEPTH_MODE, &mode);
+    }
+    return mode == GL_ZERO_TO_ONE;
+}
+
+/// Once a frame: hardly a program changes its mind about it.
+void Session::askDepth() {
+    std::array<float, 2> range{0.0F, 1.0F};
+    GLint function = GL_LESS;
+    payload_.gl.getFloatv(GL_DEPTH_RANGE, range.data());
+    payload_.gl.getIntegerv(GL_DEPTH_FUNC, &function);
+    tracker_.depth({clipsZeroToOne(), range[0] > range[1], function == GL_GREATER || function == GL_GEQUAL});
+    depth_asked_ = true;
+}
+
+void Session::forgetOldPrograms() {
     const std::uint64_t changes = payload_.programs_changed.load(std::memory_order_relaxed);
     if (std::exchange(programs_seen_, changes) != changes) {
         names_.clear();
+        blocks_.clear();
     }
+}
+
+void Session::uniform(std::uint32_t program, std::int32_t location, const Matrix& matrix) {
+    const std::uint32_t of = program != 0 ? program : tracker_.program();
+    forgetOldPrograms();
     if (of != 0 && location >= 0) {
-        tracker_.uniform(of, matrix, nameOf(of, location));
+        tracker_.uniform(of, location, matrix, nameOf(of, location));
     }
+}
+
+/// At a draw, as the buffers stand then: a camera that was written through a mapping came by no call. What is read is
+/// what OpenGL itself would read, so that no upload need be understood.
+void Session::readBlocks() {
+    const std::uint32_t program = tracker_.program();
+    if (!has_blocks_ || !blocks_changed_ || program == 0 || block_reads_ >= kMostBlockReads) {
+        return;
+    }
+    blocks_changed_ = false;
+    forgetOldPrograms();
+    const auto [known, fresh] = blocks_.try_emplace(program);
+    if (!fresh && known->second.empty()) {
+        return;
+    }
+    keepErrors();
+    if (fresh) {
+        known->second = blockMatrices(payload_.gl, program);
+    }
+    for (const BlockMatrix& where : known->second) {
+        Matrix matrix{};
+        ++block_reads_;
+        if (readBlockMatrix(payload_.gl, facts_.embedded, program, where, matrix)) {
+            const std::int64_t slot = (std::int64_t{where.block} + 1) << 32 | where.offset;
+            tracker_.uniform(program, slot, matrix, meaningOf(where.name));
+        }
+    }
+    forgetErrors(payload_.gl);
 }
 
 void Session::matrixPushed() {
@@ -184,6 +243,9 @@ void Session::beforeDraw(std::uint32_t vertices) {
     if (ended_) {
         return;
     }
+    if (!depth_asked_) {
+        askDepth();
+    }
     if (facts_.compatibility && tracker_.wantsMatrices()) {
         Matrix projection{};
         Matrix model_view{};
@@ -191,6 +253,7 @@ void Session::beforeDraw(std::uint32_t vertices) {
         payload_.gl.getFloatv(GL_MODELVIEW_MATRIX, model_view.data());
         tracker_.fixedMatrices(projection, model_view);
     }
+    readBlocks();
     if (tracker_.draw(vertices)) {
         ++early_;
         composeNow();
@@ -214,6 +277,10 @@ void Session::beforeBind(std::uint32_t framebuffer) {
 /// Into the default framebuffer, whatever is bound. A scene in another one has been read by now.
 void Session::composeAtSwap() {
     if (tracker_.target() != 0 || passive()) {
+        return;
+    }
+    if (facts_.embedded) {
+        composeNow();  // in another context, which has the window bound
         return;
     }
     // GL's own word for it: a framebuffer that has been deleted is bound no more, and nobody told.
@@ -257,11 +324,18 @@ void Session::swap(const CurrentContext& current, const char* route) {
         tracker_.stackIs(static_cast<std::size_t>(std::max(depth, 1) - 1));
     }
     composed_ = false;
+    blocks_changed_ = true;
+    depth_asked_ = false;
+    block_reads_ = 0;
     if (water_ != nullptr) {
         const Timed timed(in_frame_);
-        if (const Status status = water_->begin(time()); !status) {
+        if (const Status status = beginWater(); !status) {
             giveUp(status.error().message());
         }
+    }
+    const std::string why = passive() || tracker_.camera() ? std::string() : noCamera(frames_, tracker_.lastFrame());
+    if (!why.empty()) {
+        (void)std::fprintf(stderr, "sluice inject: no fluid so far: %s\n", why.c_str());
     }
     spent_.add(std::exchange(in_frame_, 0.0));
 }
@@ -272,22 +346,32 @@ double Session::time() const {
 }
 
 bool Session::passive() const {
-    return payload_.settings.off || !failure_.empty() || facts_.embedded;
+    return payload_.settings.off || !failure_.empty();
 }
 
 void Session::composeNow() {
     composed_ = true;
-    const std::optional<FoundCamera> camera = tracker_.camera();
+    std::optional<FoundCamera> camera = tracker_.camera();
     if (passive() || frames_ < payload_.settings.water.from_frame || !camera || size_.width == 0) {
         return;
     }
     const Timed timed(in_frame_);
     keepErrors();
+    GLint buffer = GL_BACK;
+    if (facts_.stereo) {
+        payload_.gl.getIntegerv(GL_DRAW_BUFFER, &buffer);
+    }
+    if (const std::string why = refusal(*camera, {facts_.stereo, static_cast<std::uint32_t>(buffer)}); !why.empty()) {
+        giveUp(why);
+        return;
+    }
+    camera->zero_to_one = clipsZeroToOne();
     composeAudited(*camera);
 }
 
 void Session::composeAudited(const FoundCamera& camera) {
-    const bool audit = payload_.settings.audit && audits_ < kAuditedFrames;
+    // The state of a program of OpenGL ES is out of reach: everything is done in another context.
+    const bool audit = payload_.settings.audit && audits_ < kAuditedFrames && !facts_.embedded;
     const host::StateSnapshot before = audit ? host::takeStateSnapshot() : host::StateSnapshot{};
     const Status status = compose(camera);
     if (audit) {
@@ -309,6 +393,32 @@ void Session::composeAudited(const FoundCamera& camera) {
 }
 
 Status Session::compose(const FoundCamera& camera) {
+    if (!facts_.embedded) {
+        return composeIn(camera);
+    }
+    if (own_ == nullptr) {
+        Result<std::unique_ptr<OwnContext>> made = OwnContext::create(payload_.gl, identity_);
+        if (!made) {
+            return made.error();
+        }
+        own_ = std::move(made).value();
+    }
+    const OwnContext::Turn turn(*own_);
+    return turn.ok()
+               ? composeIn(camera)
+               : Status{Error{SLUICE_ERROR_UNSUPPORTED, "OpenGL ES", "the program draws to a surface of another kind",
+                              "run a program of desktop OpenGL"}};
+}
+
+Status Session::beginWater() {
+    std::optional<OwnContext::Turn> turn;
+    if (own_ != nullptr) {
+        turn.emplace(*own_);
+    }
+    return water_->begin(time());
+}
+
+Status Session::composeIn(const FoundCamera& camera) {
     if (water_ == nullptr) {
         Result<std::unique_ptr<Water>> made =
             createWater(payload_.folder, payload_.settings, camera, seenDistance(camera));
@@ -382,20 +492,30 @@ void Session::giveUp(const std::string& why) {
         const std::string because = wasSaid(why) ? "" : ": " + why;
         (void)std::fprintf(stderr, "sluice inject: no more fluid in this context%s\n", because.c_str());
     }
-    if (water_ != nullptr) {
-        last_water_ = water_->report();
-        water_.reset();
-    }
+    endWater();
 }
 
 void Session::end() {
+    endWater();
+}
+
+void Session::endWater() {
     if (water_ != nullptr) {
-        last_water_ = water_->report();
+        last_water_ = water();
+        std::optional<OwnContext::Turn> turn;
+        if (own_ != nullptr) {
+            turn.emplace(*own_);
+        }
         water_.reset();
     }
+    own_.reset();
 }
 
 WaterReport Session::water() {
+    std::optional<OwnContext::Turn> turn;
+    if (own_ != nullptr) {
+        turn.emplace(*own_);
+    }
     return water_ != nullptr ? water_->report() : last_water_;
 }
 

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "payload/gl_calls.hpp"
+#include "payload/own_context.hpp"
 #include "payload/settings.hpp"
+#include "payload/uniform_blocks.hpp"
 #include "payload/water.hpp"
 #include "tracker/frame_tracker.hpp"
 
@@ -48,6 +50,8 @@ class Session {
     void beforeClear(std::uint32_t mask);
     void beforeBind(std::uint32_t framebuffer);
     void uniform(std::uint32_t program, std::int32_t location, const Matrix& matrix);
+    /// What is in the uniform blocks may be another, of another program or in another buffer.
+    void blocksChanged() { blocks_changed_ = true; }
     void matrixPushed();
     /// Asks which matrix it is that the next calls change.
     void matrixModeUnknown();
@@ -87,6 +91,13 @@ class Session {
     void composeAtSwap();
     void composeAudited(const FoundCamera& camera);
     [[nodiscard]] Status compose(const FoundCamera& camera);
+    [[nodiscard]] Status composeIn(const FoundCamera& camera);
+    [[nodiscard]] Status beginWater();
+    void endWater();
+    void readBlocks();
+    void askDepth();
+    [[nodiscard]] bool clipsZeroToOne() const;
+    void forgetOldPrograms();
     void scanPrograms();
     UniformName nameOf(std::uint32_t program, std::int32_t location);
     void keepErrors();
@@ -98,10 +109,14 @@ class Session {
     CurrentContext identity_;
     ContextFacts facts_;
     FrameTracker tracker_;
+    std::unique_ptr<OwnContext> own_;  ///< outlives the water; only beside a program of OpenGL ES
     std::unique_ptr<Water> water_;
     WaterReport last_water_;
     DrawableSize size_;
     std::map<std::pair<std::uint32_t, std::int32_t>, UniformName> names_;
+    std::map<std::uint32_t, std::vector<BlockMatrix>> blocks_;  ///< by program
+    bool has_blocks_ = false, blocks_changed_ = true, depth_asked_ = false;
+    std::uint32_t block_reads_ = 0;  ///< in this frame
     std::map<std::string, std::uint64_t> routes_;
     std::vector<std::string> leaks_;
     std::string failure_;

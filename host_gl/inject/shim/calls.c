@@ -100,6 +100,56 @@ AFTER(glDeleteObjectARB, (uint32_t object), (object), program_deleted(object))
 AFTER(glDeleteFramebuffers, (int32_t count, const uint32_t* names), (count, names), framebuffers_deleted(count, names))
 AFTER(glDeleteFramebuffersEXT, (int32_t count, const uint32_t* names), (count, names),
       framebuffers_deleted(count, names))
+
+/* Matrices in uniform blocks: it is said that they may have changed, and the payload looks at the next draw. Persistent
+ * mappings are written without a call; what is bound before a draw is looked at, too. */
+#define BUFFER(name, parameters, arguments, target) \
+    void name parameters {                          \
+        typedef void(*Real) parameters;             \
+        const Real real = SHIM_REAL(name, Real);    \
+        if (real != NULL) {                         \
+            real arguments;                         \
+        }                                           \
+        if (holds_blocks(target)) {                 \
+            TELL(blocks_changed());                 \
+        }                                           \
+    }
+enum { UNIFORM_BUFFER = 0x8A11, COPY_WRITE_BUFFER = 0x8F37 };
+static int holds_blocks(uint32_t target) {
+    return target == UNIFORM_BUFFER || target == COPY_WRITE_BUFFER;
+}
+BUFFER(glBindBufferBase, (uint32_t target, uint32_t index, uint32_t buffer), (target, index, buffer), target)
+BUFFER(glBindBufferRange, (uint32_t target, uint32_t index, uint32_t buffer, intptr_t offset, intptr_t size),
+       (target, index, buffer, offset, size), target)
+BUFFER(glBindBuffersBase, (uint32_t target, uint32_t first, int32_t count, const uint32_t* buffers),
+       (target, first, count, buffers), target)
+BUFFER(glBindBuffersRange,
+       (uint32_t target, uint32_t first, int32_t count, const uint32_t* buffers, const intptr_t* offsets,
+        const intptr_t* sizes),
+       (target, first, count, buffers, offsets, sizes), target)
+BUFFER(glBufferData, (uint32_t target, intptr_t size, const void* data, uint32_t usage), (target, size, data, usage),
+       target)
+BUFFER(glBufferSubData, (uint32_t target, intptr_t offset, intptr_t size, const void* data),
+       (target, offset, size, data), target)
+BUFFER(glNamedBufferData, (uint32_t buffer, intptr_t size, const void* data, uint32_t usage),
+       (buffer, size, data, usage), UNIFORM_BUFFER)
+BUFFER(glNamedBufferSubData, (uint32_t buffer, intptr_t offset, intptr_t size, const void* data),
+       (buffer, offset, size, data), UNIFORM_BUFFER)
+BUFFER(glUniformBlockBinding, (uint32_t program, uint32_t block, uint32_t point), (program, block, point),
+       UNIFORM_BUFFER)
+#define UNMAP(name, parameter, target)                            \
+    uint8_t name(uint32_t parameter) {                            \
+        typedef uint8_t (*Real)(uint32_t);                        \
+        const Real real = SHIM_REAL(name, Real);                  \
+        const uint8_t whole = real == NULL ? 0 : real(parameter); \
+        if (holds_blocks(target)) {                               \
+            TELL(blocks_changed());                               \
+        }                                                         \
+        return whole;                                             \
+    }
+UNMAP(glUnmapBuffer, target, target)
+UNMAP(glUnmapNamedBuffer, buffer, UNIFORM_BUFFER)
+
 BEFORE(glBindFramebuffer, (uint32_t target, uint32_t framebuffer), (target, framebuffer),
        bind_framebuffer(target, framebuffer))
 BEFORE(glBindFramebufferEXT, (uint32_t target, uint32_t framebuffer), (target, framebuffer),

@@ -180,10 +180,12 @@ static void* in_libraries(const char* name) {
     return is_ours(found) ? NULL : found;
 }
 
-/* Functions that no library exports are known to GetProcAddress alone. */
+/* Functions that no library exports are known to GetProcAddress alone. EGL's makes up an address for whatever begins
+ * with "gl", so it is not asked for GLX: a program without GLX would seem to have it. */
 static void* by_get_proc_address(const char* name) {
     static const char* const ways[] = {"glXGetProcAddressARB", "eglGetProcAddress"};
-    for (size_t i = 0; i < sizeof(ways) / sizeof(ways[0]); ++i) {
+    const size_t count = strncmp(name, "glX", 3) == 0 ? 1 : 2;
+    for (size_t i = 0; i < count; ++i) {
         void* (*const get)(const char*) = (void* (*)(const char*))as_function(in_libraries(ways[i]));
         void* found = get == NULL ? NULL : get(name);
         if (found != NULL && !is_ours(found)) {

@@ -35,7 +35,10 @@
     X(glDrawTransformFeedbackStream) X(glDrawTransformFeedbackInstanced) \
     X(glDrawTransformFeedbackStreamInstanced) X(glRectd) X(glRectdv) X(glRectf) X(glRectfv) X(glRecti) \
     X(glRectiv) X(glRects) X(glRectsv) X(glBitmap) X(glDrawPixels) X(glCopyPixels) X(glEvalMesh1) \
-    X(glEvalMesh2)
+    X(glEvalMesh2) \
+    X(glBindBufferBase) X(glBindBufferRange) X(glBindBuffersBase) \
+    X(glBindBuffersRange) X(glBufferData) X(glBufferSubData) X(glNamedBufferData) X(glNamedBufferSubData) \
+    X(glUniformBlockBinding) X(glUnmapBuffer) X(glUnmapNamedBuffer)
 /* clang-format on */
 
 #define SHIM_ENUMERATE(name) HOOK_##name,

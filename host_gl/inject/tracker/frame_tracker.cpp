@@ -108,9 +108,22 @@ bool FrameTracker::wantsMatrices() const {
 void FrameTracker::fixedMatrices(const Matrix& projection, const Matrix& model_view) {
     fixed_dirty_ = lists_change_projection_;
     model_view_ = model_view;
-    fixed_ = readMatrix(projection);
+    fixed_ = readMatrix(projection, depth_);
     ++fixed_version_;
     reject(*fixed_);
+}
+
+void FrameTracker::depth(const DepthRules& rules) {
+    if (depth_ == rules) {
+        return;
+    }
+    depth_ = rules;
+    fixed_dirty_ = true;
+    for (auto& [program, camera] : programs_) {
+        if (camera.reading) {  // of a matrix that is written once
+            camera.reading = readEitherWay(camera.matrix, rules);
+        }
+    }
 }
 
 void FrameTracker::useProgram(std::uint32_t program) {
@@ -129,19 +142,34 @@ void FrameTracker::programDeleted(std::uint32_t program) {
     }
 }
 
-void FrameTracker::uniform(std::uint32_t program, const Matrix& matrix, UniformName name) {
+void FrameTracker::uniform(std::uint32_t program, std::int64_t slot, const Matrix& matrix, UniformName name) {
     ProgramCamera& camera = programs_[program != 0 ? program : program_];
-    Reading reading = readMatrix(matrix);
-    if (reading.shape == Shape::Perspective) {
-        camera.reading = std::move(reading);
-        ++camera.version;
-    } else if (reading.shape == Shape::Flat && name >= camera.view_name && name != UniformName::Unknown &&
-               rigidPart(matrix).valid) {
-        camera.view = matrix;
-        camera.view_name = name == UniformName::View ? UniformName::View : camera.view_name;
-    } else {
-        reject(reading);
+    if (camera.reading && camera.slot == slot && camera.matrix == matrix) {
+        return;
     }
+    Reading reading = readEitherWay(matrix, depth_);
+    const bool was_camera = camera.reading && camera.slot == slot;
+    if (reading.shape == Shape::Perspective || (was_camera && reading.shape == Shape::Flat)) {
+        camera.reading = std::move(reading);
+        camera.matrix = matrix;
+        camera.slot = slot;
+        ++camera.version;
+        return;
+    }
+    if (name == UniformName::View || (name == UniformName::ModelView && camera.view_name != UniformName::View)) {
+        // Of a rigid motion only one of the two is affine, unless it is a turn alone, which goes as the projection
+        // does.
+        const bool turn = matrix[3] == 0 && matrix[7] == 0 && matrix[11] == 0;
+        const bool by_rows = camera.reading && camera.reading->transposed;
+        const Matrix& view =
+            turn && !(by_rows && matrix[12] == 0 && matrix[13] == 0 && matrix[14] == 0) ? matrix : transposed(matrix);
+        if (rigidPart(view).valid) {
+            camera.view = view;
+            camera.view_name = name == UniformName::View ? UniformName::View : camera.view_name;
+            return;
+        }
+    }
+    reject(reading);
 }
 
 void FrameTracker::reject(const Reading& reading) {
@@ -300,7 +328,7 @@ void FrameTracker::chooseTarget() {
     std::uint32_t next = target_;
     if (in_default) {
         next = 0;
-    } else if (!here && !elsewhere_.empty()) {
+    } else if (!here && !elsewhere_.empty() && !only_window_) {
         next = std::max_element(elsewhere_.begin(), elsewhere_.end(), [](const auto& a, const auto& b) {
                    return a.second < b.second;
                })->first;

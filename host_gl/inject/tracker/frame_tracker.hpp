@@ -36,8 +36,9 @@ enum class UniformName { Unknown, View, ModelView };
 struct FoundCamera {
     Lens lens;
     Matrix view = kIdentity;
-    double scale = 1;       ///< units of the lens per unit of the program's world
-    double confidence = 0;  ///< of the lens, 0 to 1
+    double scale = 1;          ///< units of the lens per unit of the program's world
+    bool zero_to_one = false;  ///< what OpenGL clips depth to where the fluid is drawn
+    double confidence = 0;     ///< of the lens, 0 to 1
     double view_confidence = 0;
     std::string source, view_source;
     std::uint64_t vertices = 0;
@@ -81,12 +82,14 @@ class FrameTracker {
     void fixedMatrices(const Matrix& projection, const Matrix& model_view);
 
     void useProgram(std::uint32_t program);
-    void uniform(std::uint32_t program, const Matrix& matrix, UniformName name);
+    /// `slot` tells a program's matrices apart: one that was the camera and is flat now is an overlay's.
+    void uniform(std::uint32_t program, std::int64_t slot, const Matrix& matrix, UniformName name);
     /// All its uniforms are zero.
     void programLinked(std::uint32_t program) { programs_.erase(program); }
     /// Its name may be another's; it lives on as long as it is in use.
     void programDeleted(std::uint32_t program);
     [[nodiscard]] std::uint32_t program() const { return program_; }
+    void depth(const DepthRules& rules);
 
     /// Before the binding changes. True: the framebuffer that is bound now holds the complete scene, and the fluid
     /// belongs into it.
@@ -98,6 +101,8 @@ class FrameTracker {
     void refuse(std::uint32_t framebuffer);
     /// After it: one that was bound is not any more.
     void framebufferDeleted(std::uint32_t framebuffer);
+    /// No framebuffer of the program's own can be reached.
+    void stayInTheWindow() { only_window_ = true; }
     void compileList(bool compiling);
     [[nodiscard]] bool compiling() const { return compiling_; }
     [[nodiscard]] bool listsChangeMode() const { return lists_change_mode_; }
@@ -131,6 +136,8 @@ class FrameTracker {
     struct ProgramCamera {
         std::optional<Reading> reading;
         std::optional<Matrix> view;
+        Matrix matrix{};         ///< that `reading` is of
+        std::int64_t slot = -1;  ///< and where it stands
         UniformName view_name = UniformName::Unknown;
         std::uint64_t version = 0;
     };
@@ -160,6 +167,8 @@ class FrameTracker {
     std::uint64_t fixed_version_ = 0;
     std::uint32_t program_ = 0, framebuffer_ = 0, target_ = 0;
     bool program_deleted_ = false;  ///< program_, which is in use still
+    bool only_window_ = false;
+    DepthRules depth_;
     std::map<std::uint32_t, std::uint64_t>
         elsewhere_;  ///< vertices in perspective, by framebuffer other than the target
     std::set<std::uint32_t> refused_;

@@ -60,7 +60,14 @@ constexpr double kInfinite = 4e-7;  // single precision cannot tell a far plane 
 constexpr double kWidest = 0.02, kNarrowest = 100.0;  // cotangents: 178 degrees and 1.1 degrees
 
 /// Near and far of the depth row a * z + b, or why they are none.
-std::string readDepth(double a, double b, Lens& lens) {
+std::string readDepth(double a, double b, const DepthRules& rules, Lens& lens) {
+    // Upside down, it is the depth row of the same planes.
+    const bool upside_down = a > 0.0 && b > 0.0 && (rules.zero_to_one || rules.greater || rules.range_reversed);
+    if (upside_down) {
+        a = -a;
+        b = -b;
+    }
+    lens.reversed = upside_down != rules.range_reversed;
     lens.near_plane = b / (a - 1.0);
     const bool infinite = std::abs(a + 1.0) < kInfinite;
     lens.far_plane = infinite ? lens.near_plane * kFarOfInfinite : b / (a + 1.0);
@@ -76,14 +83,17 @@ std::string readDepth(double a, double b, Lens& lens) {
 
 }  // namespace
 
-Reading readMatrix(const Matrix& matrix) {
+Reading readMatrix(const Matrix& matrix, const DepthRules& rules) {
     if (!finite(matrix)) {
         return rejected("it is not finite");
     }
     const Row x = row(matrix, 0);
     const Row y = row(matrix, 1);
-    const Row z = row(matrix, 2);
     const Row w = row(matrix, 3);
+    const Row written = row(matrix, 2);
+    const Row z = rules.zero_to_one
+                      ? Row{2 * written.x - w.x, 2 * written.y - w.y, 2 * written.z - w.z, 2 * written.w - w.w}
+                      : written;
     const double scale = length(w);
     if (scale < 1e-6 * std::max({length(x), length(y), length(z), std::abs(w.w)})) {
         if (w.w == 0.0) {
@@ -105,7 +115,7 @@ Reading readMatrix(const Matrix& matrix) {
     if (length(off) > kParallel * std::max(length(z), scale)) {
         return rejected("its depth is not that of a projection (an oblique near plane, or no projection)");
     }
-    if (std::string why = readDepth(a, off.w, reading.lens); !why.empty()) {
+    if (std::string why = readDepth(a, off.w, rules, reading.lens); !why.empty()) {
         return rejected(std::move(why));
     }
     reading.lens.shift_x = dot(x, depth) / square;
@@ -136,6 +146,28 @@ Reading readMatrix(const Matrix& matrix) {
     return reading;
 }
 
+Matrix transposed(const Matrix& matrix) {
+    Matrix out{};
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        out.at(i) = matrix.at(i % 4 * 4 + i / 4);
+    }
+    return out;
+}
+
+Reading readEitherWay(const Matrix& matrix, const DepthRules& rules) {
+    Reading as_is = readMatrix(matrix, rules);
+    const auto scaling = [](const Reading& reading) { return std::abs(std::log(reading.scale)); };
+    if (as_is.shape == Shape::Flat || (as_is.shape == Shape::Perspective && scaling(as_is) < 1e-4)) {
+        return as_is;
+    }
+    Reading turned = readMatrix(transposed(matrix), rules);
+    turned.transposed = true;
+    if (turned.shape != Shape::Perspective) {
+        return as_is;
+    }
+    return as_is.shape == Shape::Perspective && scaling(as_is) <= scaling(turned) ? as_is : turned;
+}
+
 Rigid rigidPart(const Matrix& matrix) {
     const Row x = row(matrix, 0);
     const Row y = row(matrix, 1);
@@ -158,7 +190,7 @@ Rigid rigidPart(const Matrix& matrix) {
     return rigid;
 }
 
-Matrix projectionOf(const Lens& lens) {
+Matrix projectionOf(const Lens& lens, bool zero_to_one) {
     const double depth = lens.far_plane - lens.near_plane;
     Matrix m{};
     m[0] = static_cast<float>(lens.scale_x);
@@ -168,6 +200,10 @@ Matrix projectionOf(const Lens& lens) {
     m[10] = static_cast<float>(-(lens.far_plane + lens.near_plane) / depth);
     m[11] = -1.0F;
     m[14] = static_cast<float>(-2.0 * lens.far_plane * lens.near_plane / depth);
+    if (zero_to_one) {
+        m[10] = static_cast<float>(-lens.far_plane / depth);
+        m[14] = static_cast<float>(-lens.far_plane * lens.near_plane / depth);
+    }
     return m;
 }
 
@@ -199,9 +235,10 @@ bool sameLens(const Lens& a, const Lens& b) {
         return std::abs(p - q) <= tolerance * std::max(std::abs(p), std::abs(q));
     };
     // A far plane hangs on the last bits of the depth row.
-    return close(a.near_plane, b.near_plane, 0.02) && close(a.far_plane, b.far_plane, 0.2) &&
-           close(a.scale_x, b.scale_x, 0.01) && close(a.scale_y, b.scale_y, 0.01) &&
-           std::abs(a.shift_x - b.shift_x) < 0.01 && std::abs(a.shift_y - b.shift_y) < 0.01;
+    return a.reversed == b.reversed && close(a.near_plane, b.near_plane, 0.02) &&
+           close(a.far_plane, b.far_plane, 0.2) && close(a.scale_x, b.scale_x, 0.01) &&
+           close(a.scale_y, b.scale_y, 0.01) && std::abs(a.shift_x - b.shift_x) < 0.01 &&
+           std::abs(a.shift_y - b.shift_y) < 0.01;
 }
 
 }  // namespace sluice::inject

@@ -4,7 +4,9 @@
  *
  * Usage: gl_target API ROUTE [WORD...]
  *   API    glx, egl          ROUTE  symbol, proc (GetProcAddress), dlsym
- *   frames=N (4)  depth=N (24)  samples=N (0)  core  (a core profile with a shader of its own)
+ *   frames=N (4)  depth=N (24)  samples=N (0)  core  (a core profile with a shader of its own)  es  (OpenGL ES 3)
+ *   ubo  (the matrix in a uniform block, written by a call and through a mapping in turns)
+ *   reversed  (core: depth from 0 to 1, 1 at the near plane)
  *   resize  (in the middle)  destroy  (the context in the middle of a frame, then another one)  second  (another
  * context in another window, turn by turn)  raise=N (ends by that signal)  code=N (exits with it)  quiet (no hash)
  * child=COMMAND bar=HOW (the bar is drawn with rect, rectv, pixels or bitmap) */
@@ -27,7 +29,7 @@
 typedef void (*Function)(void);
 
 static struct {
-    int egl, core, resize, destroy, second, quiet;
+    int egl, core, es, ubo, reversed, resize, destroy, second, quiet;
     int frames, depth, samples, raise, code;
     const char *route, *child, *bar;
 } options = {.frames = 4, .depth = 24, .route = "symbol", .bar = "array"};
@@ -97,11 +99,20 @@ static void choose_glx(Screen_* s) {
 
 static void choose_egl(Screen_* s) {
     s->egl_display = eglGetDisplay((EGLNativeDisplayType)display);
-    const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_WINDOW_BIT, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,  EGL_RED_SIZE, 8,
-                             EGL_DEPTH_SIZE,   options.depth,  EGL_SAMPLES,         options.samples, EGL_NONE};
+    const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                             EGL_WINDOW_BIT,
+                             EGL_RENDERABLE_TYPE,
+                             options.es ? EGL_OPENGL_ES3_BIT : EGL_OPENGL_BIT,
+                             EGL_RED_SIZE,
+                             8,
+                             EGL_DEPTH_SIZE,
+                             options.depth,
+                             EGL_SAMPLES,
+                             options.samples,
+                             EGL_NONE};
     EGLint count = 0;
     EGLint id = 0;
-    if (!eglInitialize(s->egl_display, NULL, NULL) || !eglBindAPI(EGL_OPENGL_API) ||
+    if (!eglInitialize(s->egl_display, NULL, NULL) || !eglBindAPI(options.es ? EGL_OPENGL_ES_API : EGL_OPENGL_API) ||
         !eglChooseConfig(s->egl_display, wanted, &s->egl_config, 1, &count) || count == 0 ||
         !eglGetConfigAttrib(s->egl_display, s->egl_config, EGL_NATIVE_VISUAL_ID, &id)) {
         fail("EGL config");
@@ -111,10 +122,16 @@ static void choose_egl(Screen_* s) {
 }
 
 static void make_context(Screen_* s) {
-    const int core[] = {
-        GLX_CONTEXT_MAJOR_VERSION_ARB,    3,   GLX_CONTEXT_MINOR_VERSION_ARB, 3, GLX_CONTEXT_PROFILE_MASK_ARB,
-        GLX_CONTEXT_CORE_PROFILE_BIT_ARB, None};
-    const EGLint egl_core[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, 3, EGL_NONE};
+    const int profile = options.es ? GLX_CONTEXT_ES2_PROFILE_BIT_EXT : GLX_CONTEXT_CORE_PROFILE_BIT_ARB;
+    const int minor = options.es ? 0 : 3;
+    const int core[] = {GLX_CONTEXT_MAJOR_VERSION_ARB,
+                        3,
+                        GLX_CONTEXT_MINOR_VERSION_ARB,
+                        minor,
+                        GLX_CONTEXT_PROFILE_MASK_ARB,
+                        profile,
+                        None};
+    const EGLint egl_core[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, minor, EGL_NONE};
     if (options.egl) {
         s->egl = eglCreateContext(s->egl_display, s->egl_config, EGL_NO_CONTEXT, options.core ? egl_core : NULL);
         (void)LOOK_UP(eglMakeCurrent)(s->egl_display, s->surface, s->surface, s->egl);
@@ -226,7 +243,8 @@ static void draw_fixed(int frame) {
 
 static GLuint shader(GLenum kind, const char* text) {
     const GLuint name = glCreateShader(kind);
-    glShaderSource(name, 1, &text, NULL);
+    const char* const lines[] = {options.es ? "#version 300 es\nprecision highp float;\n" : "#version 330\n", text};
+    glShaderSource(name, 2, lines, NULL);
     glCompileShader(name);
     return name;
 }
@@ -234,27 +252,50 @@ static GLuint shader(GLenum kind, const char* text) {
 static GLuint program(const char* vertex) {
     const GLuint name = glCreateProgram();
     glAttachShader(name, shader(GL_VERTEX_SHADER, vertex));
-    glAttachShader(name, shader(GL_FRAGMENT_SHADER,
-                                "#version 330\nout vec4 colour;in vec3 tint;void main(){colour=vec4(tint,1);}"));
+    glAttachShader(name,
+                   shader(GL_FRAGMENT_SHADER, "out vec4 colour;in vec3 tint;void main(){colour=vec4(tint,1.0);}"));
+    glBindAttribLocation(name, 0, "at");
     glLinkProgram(name);
     return name;
 }
 
+/* Of a block that has 16 bytes of something else before its matrix, 256 bytes into its buffer. */
+static void write_block(GLuint block, int frame, const float matrix[16]) {
+    glBindBuffer(GL_UNIFORM_BUFFER, block);
+    if (frame % 2 == 0) {
+        LOOK_UP(glBufferSubData)(GL_UNIFORM_BUFFER, 272, 64, matrix);
+    } else {
+        void* to = glMapBufferRange(GL_UNIFORM_BUFFER, 272, 64, GL_MAP_WRITE_BIT);
+        memcpy(to, matrix, 64);
+        (void)LOOK_UP(glUnmapBuffer)(GL_UNIFORM_BUFFER);
+    }
+    LOOK_UP(glBindBufferRange)(GL_UNIFORM_BUFFER, 3, block, 256, 80);
+}
+
 static void draw_core(int frame) {
-    static GLuint world, overlay, array, buffer;
+    static GLuint world, overlay, array, buffer, block;
     if (world == 0) {
-        world = program(
-            "#version 330\nuniform mat4 mvp;in vec3 at;out vec3 tint;"
-            "void main(){gl_Position=mvp*vec4(at,1);tint=fract(at*0.3);}");
+        world = program(options.ubo ? "layout(std140) uniform Scene{vec4 other;mat4 mvp;};in vec3 at;out vec3 tint;"
+                                      "void main(){gl_Position=mvp*vec4(at,1.0);tint=fract(at*0.3+other.xyz);}"
+                                    : "uniform mat4 mvp;in vec3 at;out vec3 tint;"
+                                      "void main(){gl_Position=mvp*vec4(at,1.0);tint=fract(at*0.3);}");
         overlay = program(
-            "#version 330\nin vec3 at;out vec3 tint;"
-            "void main(){gl_Position=vec4(at.xy*0.3-0.5,0,1);tint=vec3(1,1,0);}");
+            "in vec3 at;out vec3 tint;"
+            "void main(){gl_Position=vec4(at.xy*0.3-0.5,0.0,1.0);tint=vec3(1.0,1.0,0.0);}");
         glGenVertexArrays(1, &array);
         glGenBuffers(1, &buffer);
+        glGenBuffers(1, &block);
+        if (options.ubo) {
+            glUniformBlockBinding(world, glGetUniformBlockIndex(world, "Scene"), 3);
+            static const char nothing[512];
+            glBindBuffer(GL_UNIFORM_BUFFER, block);
+            glBufferData(GL_UNIFORM_BUFFER, sizeof(nothing), nothing, GL_STREAM_DRAW);
+        }
     }
     const float z = -0.1F * (float)frame;
     /* glFrustum(-0.75, 0.75, -0.5, 0.5, 1, 50) times a translation by z. */
-    const float a = -51.0F / 49.0F, b = -100.0F / 49.0F;
+    const float a = options.reversed ? 1.0F / 49.0F : -51.0F / 49.0F;
+    const float b = options.reversed ? 50.0F / 49.0F : -100.0F / 49.0F;
     const float mvp[16] = {1 / 0.75F, 0, 0, 0, 0, 2, 0, 0, 0, 0, a, -1, 0, 0, a * z + b, -z};
     glBindVertexArray(array);
     glBindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -263,7 +304,11 @@ static void draw_core(int frame) {
     glEnableVertexAttribArray(0);
     glEnable(GL_DEPTH_TEST);
     LOOK_UP(glUseProgram)(world);
-    LOOK_UP(glUniformMatrix4fv)(glGetUniformLocation(world, "mvp"), 1, GL_FALSE, mvp);
+    if (options.ubo) {
+        write_block(block, frame, mvp);
+    } else {
+        LOOK_UP(glUniformMatrix4fv)(glGetUniformLocation(world, "mvp"), 1, GL_FALSE, mvp);
+    }
     LOOK_UP(glDrawArrays)(GL_TRIANGLE_FAN, 0, 4);
     LOOK_UP(glDrawArrays)(GL_TRIANGLE_FAN, 4, 4);
     glDisable(GL_DEPTH_TEST);
@@ -275,6 +320,11 @@ static void draw_core(int frame) {
 static void draw(int frame) {
     glViewport(0, 0, width, height);
     glClearColor(0.1F, 0.2F, 0.3F, 1.0F);
+    if (options.reversed) {
+        glClipControl(GL_LOWER_LEFT, GL_ZERO_TO_ONE);
+        glDepthFunc(GL_GREATER);
+        glClearDepth(0.0);
+    }
     LOOK_UP(glClear)(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     options.core ? draw_core(frame) : draw_fixed(frame);
 }
@@ -329,7 +379,10 @@ static void read_options(int argc, char** argv) {
         (void)sscanf(word, "raise=%d", &options.raise);
         (void)sscanf(word, "code=%d", &options.code);
         options.bar = strncmp(word, "bar=", 4) == 0 ? word + 4 : options.bar;
-        options.core |= strcmp(word, "core") == 0;
+        options.es |= strcmp(word, "es") == 0;
+        options.ubo |= strcmp(word, "ubo") == 0;
+        options.reversed |= strcmp(word, "reversed") == 0;
+        options.core |= strcmp(word, "core") == 0 || options.es;
         options.resize |= strcmp(word, "resize") == 0;
         options.destroy |= strcmp(word, "destroy") == 0;
         options.second |= strcmp(word, "second") == 0;
