@@ -149,6 +149,7 @@ Status readProfile(const std::string& path, inject::Settings& settings) {
     scene::ObjectReader profile(document.value(), "", path, failure);
     std::string program;
     profile.text("program", program);  // for people
+    profile.number("start_deadline", settings.start_deadline, scene::Range{0.1, 600.0});
     readRule(profile, "overlay", settings.rules.overlay, kOverlays);
     profile.object("camera", [&](scene::ObjectReader& camera) { readCamera(camera, settings.rules); });
     profile.object("water", [&](scene::ObjectReader& water) { readWater(water, settings.water); });

@@ -45,7 +45,8 @@ int run(const char* plugin) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc != 4 || std::strcmp(argv[1], "--parent") != 0) {
+    const bool detached = argc == 4 && std::strcmp(argv[1], "--host") == 0;
+    if (argc != 4 || (!detached && std::strcmp(argv[1], "--parent") != 0)) {
         return fail("usage", "a host starts this program, as sluice render --isolate does");
     }
     // What a terminal, timeout(1) or a service manager sends goes to the whole group of processes. The host takes it, or
@@ -54,7 +55,8 @@ int main(int argc, char** argv) {
         (void)std::signal(signal, SIG_IGN);
     }
     try {
-        return sluice::isolate::endWithHost(argv[2]) ? run(argv[3]) : 1;
+        const bool ends = detached ? sluice::isolate::endWithWatchedHost() : sluice::isolate::endWithHost(argv[2]);
+        return ends ? run(argv[3]) : 1;
     } catch (const std::exception& thrown) {
         return fail("internal fault", thrown.what());
     }

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Programs that are hard to stand beside: they kill the renderer, destroy what is in use, stand in front of the same
 // functions, and share libraries with us.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <fstream>
+#include <iterator>
 #include <map>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -35,6 +40,15 @@ class HardInjectTest : public InjectTest {
         return injectedHard("--profile tiny.json --step 0.02 --report", words);
     }
 };
+
+std::set<std::string> matches(const std::string& text, const std::string& pattern) {
+    const std::regex expression(pattern);
+    std::set<std::string> found;
+    for (std::sregex_iterator at(text.begin(), text.end(), expression); at != std::sregex_iterator(); ++at) {
+        found.insert((*at)[1]);
+    }
+    return found;
+}
 
 std::map<int, std::string> framesOf(const std::string& out) {
     std::map<int, std::string> found;
@@ -116,13 +130,15 @@ TEST_F(HardInjectTest, ADisplayIsTerminatedWithAllThatIsInIt) {
 }
 
 TEST_F(HardInjectTest, OthersThatStandInFrontOfTheSameFunctionsAreNotRunInCircles) {
-    const std::string wrapped = "'" SLUICE_WRAPPED_TARGET "' quiet frames=4";
-    const std::string inject = "'" SLUICE_PROGRAM "' inject --off --report -- ";
-    for (const std::string& words :
-         {"env WRAPPER=next " + inject + wrapped, "env WRAPPER=handle " + inject + wrapped,
-          "env WRAPPER=next " + inject + wrapped + " default",
-          "env WRAPPER=handle LD_PRELOAD='" SLUICE_WRAPPER "' " + inject + "'" SLUICE_HARD_TARGET "' quiet frames=4",
-          "env WRAPPER=next LD_PRELOAD='" SLUICE_WRAPPER "' " + inject + "'" SLUICE_HARD_TARGET "' quiet frames=4"}) {
+    constexpr const char* kInject = "'" SLUICE_PROGRAM "' inject --off --report -- ";
+    constexpr const char* kWrapped = "'" SLUICE_WRAPPED_TARGET "' quiet frames=4";
+    constexpr const char* kPreload = "LD_PRELOAD='" SLUICE_WRAPPER "' ";
+    constexpr const char* kPlain = "'" SLUICE_HARD_TARGET "' quiet frames=4";
+    for (const std::string& words : {fmt::format("env WRAPPER=next {}{}", kInject, kWrapped),
+                                     fmt::format("env WRAPPER=handle {}{}", kInject, kWrapped),
+                                     fmt::format("env WRAPPER=next {}{} default", kInject, kWrapped),
+                                     fmt::format("env WRAPPER=handle {}{}{}", kPreload, kInject, kPlain),
+                                     fmt::format("env WRAPPER=next {}{}{}", kPreload, kInject, kPlain)}) {
         const Outcome outcome = run("timeout 20 " + words);
         EXPECT_EQ(outcome.code, 0) << words << outcome.err;
         EXPECT_THAT(outcome.out, HasSubstr("wrapped 4\n")) << words;
@@ -132,6 +148,94 @@ TEST_F(HardInjectTest, OthersThatStandInFrontOfTheSameFunctionsAreNotRunInCircle
 
 TEST_F(HardInjectTest, WhatTheProgramCallsThroughALibraryThatItSharesWithUsIsSeen) {
     EXPECT_THAT(withFluid("epoxy").out, ContainsRegex("glBindFramebuffer +3 "));
+}
+
+TEST_F(HardInjectTest, TheProgramHasNoChildOfOursAndTakesItsSignalsItself) {
+    const Outcome alone = bareHard("frames=3 wait signals");
+    const Outcome with = withFluid("frames=3 wait signals");
+    EXPECT_EQ(with.code, 0) << with.err;
+    EXPECT_THAT(with.out, HasSubstr("fluid      2 frames, 0 without"));
+    // Those that take signals are the program's and its driver's own, and so is the one child.
+    const std::size_t threads = alone.out.find("threads open to signals");
+    ASSERT_NE(threads, std::string::npos) << alone.out;
+    EXPECT_THAT(alone.out, HasSubstr("children 1 signals 1\n"));
+    EXPECT_THAT(with.out, HasSubstr(alone.out.substr(threads)));
+}
+
+TEST_F(HardInjectTest, TheRendererEndsWithAProgramThatIsKilled) {
+    const Outcome with = withFluid("frames=3 die");
+    EXPECT_EQ(with.code, 128 + 9);
+    const std::size_t at = with.out.find("renderer ");
+    ASSERT_NE(at, std::string::npos) << with.out << with.err;
+    const int pid = std::stoi(with.out.substr(at + 9));
+    ASSERT_GT(pid, 0);
+    const std::string status = fmt::format("/proc/{}/stat", pid);
+    bool gone = false;
+    for (int tries = 0; tries < 600 && !gone; ++tries) {
+        std::ifstream file(status);
+        std::string number;
+        std::string name;
+        std::string state;
+        gone = !(file >> number >> name >> state) || state == "Z" || name != "(sluice-renderer)";
+        ::usleep(50'000);
+    }
+    EXPECT_TRUE(gone) << "process " << pid;
+}
+
+TEST_F(HardInjectTest, ARendererThatHangsAtItsStartHoldsNoFrameUp) {
+    const Outcome alone = bareHard("frames=8");
+    const auto hanging = [this](const char* deadline, const std::string& words) {
+        write("slow.json", fmt::format("{{\"start_deadline\": {}}}", deadline));
+        return run(fmt::format("timeout 60 '{}' inject --plugin '{}' --profile slow.json -- '{}' {}", SLUICE_PROGRAM,
+                               SLUICE_HANGING_PLUGIN, SLUICE_HARD_TARGET, words));
+    };
+    const Outcome with = hanging("600", "frames=8");
+    EXPECT_EQ(with.code, 0);
+    EXPECT_EQ(with.out, alone.out);
+    EXPECT_EQ(with.err, "");
+    const Outcome given_up = hanging("0.2", "frames=60 pace=50 quiet");
+    EXPECT_EQ(given_up.code, 0);
+    EXPECT_THAT(given_up.err, HasSubstr("sluice inject: no more fluid in this context"));
+    EXPECT_THAT(given_up.err, HasSubstr("did not answer its start within 0.200 s"));
+}
+
+std::set<std::string> symbolsOf(const std::string& output) {
+    std::set<std::string> found;
+    std::istringstream lines(output);
+    for (std::string address, kind, name; lines >> address >> kind >> name;) {
+        if (kind != "A") {  // a version's own
+            found.insert(name.substr(0, name.find('@')));
+        }
+    }
+    return found;
+}
+
+/// A program's own C++ runtime, fmt or whatever else it has brought must not come between, nor ours before them.
+TEST_F(HardInjectTest, LibrariesInOtherProgramsExportWhatTheyMustAndNeedWhatEverybodyHas) {
+    struct Case {
+        const char* library;
+        const char* exports;
+        std::set<std::string> needs;
+    };
+    for (const auto& [library, exports, needs] :
+         {Case{SLUICE_SHIM, SLUICE_HOST_GL "/inject/shim/exports.map", {"libc.so.6"}},
+          Case{SLUICE_PAYLOAD,
+               SLUICE_HOST_GL "/inject/payload/exports.map",
+               {"libepoxy.so.0", "libm.so.6", "libc.so.6", "ld-linux-x86-64.so.2"}},
+          Case{SLUICE_API_LIBRARY,
+               SLUICE_HOST_GL "/src/api/exports.map",
+               {"libepoxy.so.0", "libm.so.6", "libc.so.6", "ld-linux-x86-64.so.2"}}}) {
+        std::ifstream map(exports);
+        const std::string text{std::istreambuf_iterator<char>(map), std::istreambuf_iterator<char>()};
+        EXPECT_EQ(symbolsOf(run(fmt::format("nm -D --defined-only '{}'", library)).out), matches(text, "\n +(\\w+);"))
+            << library;
+        const Outcome needed = run(fmt::format("env LC_ALL=C readelf -d '{}'", library));
+        for (const std::string& name : matches(needed.out, "NEEDED.*\\[(.*)\\]")) {
+            EXPECT_EQ(needs.count(name), 1U) << library << " needs " << name;
+        }
+        EXPECT_THAT(needed.out, HasSubstr("libc.so.6"));
+        EXPECT_THAT(run(fmt::format("nm -D --undefined-only '{}'", library)).out, Not(HasSubstr(" U _Z"))) << library;
+    }
 }
 
 }  // namespace

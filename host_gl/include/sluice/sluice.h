@@ -103,7 +103,10 @@ typedef struct SluiceOptions {
     const char*
         ledger_log;   /* NULL: $SLUICE_LEDGER_LOG, else none: a file for `sluice diagnose`, of the first context */
     uint32_t timings; /* 1: find out where the time of a frame goes, for SluiceStatistics */
-    uint32_t reserved;
+    /* 1: sluice_create does not wait for the renderer's process. Until it is there, frames return SLUICE_NOT_READY,
+     * which is no error, and are the engine's own. Without a process of its own this means nothing. */
+    uint32_t start_in_background;
+    double start_deadline; /* seconds that any one call of a start may take before the process is ended */
 } SluiceOptions;
 /* struct_size is the caller's sizeof; it is set, and nothing beyond it is written. */
 SLUICE_EXPORT void sluice_options_defaults(SluiceOptions* options, size_t struct_size);

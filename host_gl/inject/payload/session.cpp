@@ -374,6 +374,9 @@ void Session::composeAudited(const FoundCamera& camera) {
     const bool audit = payload_.settings.audit && audits_ < kAuditedFrames && !facts_.embedded;
     const host::StateSnapshot before = audit ? host::takeStateSnapshot() : host::StateSnapshot{};
     const Status status = compose(camera);
+    if (!status && status.error().code == SLUICE_NOT_READY) {
+        return;  // the renderer is being started
+    }
     if (audit) {
         ++audits_;
         for (std::string& leak : host::differences(before, host::takeStateSnapshot())) {

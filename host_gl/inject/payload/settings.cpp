@@ -141,6 +141,8 @@ void readLine(std::string_view key, Words& line, Settings& out) {
         line.read(out.step);
     } else if (key == "same-process") {
         out.same_process = true;
+    } else if (key == "start-deadline") {
+        line.read(out.start_deadline);
     } else if (key == "plugin") {
         out.plugin = line.rest();
     } else if (key == "route") {
@@ -193,6 +195,7 @@ std::string printSettings(const Settings& settings) {
     text += settings.report.empty() ? "" : fmt::format("report {}\n", settings.report);
     text += settings.step == 0 ? "" : fmt::format("step {}\n", settings.step);
     text += settings.same_process ? "same-process\n" : "";
+    text += fmt::format("start-deadline {}\n", settings.start_deadline);
     text += settings.plugin.empty() ? "" : fmt::format("plugin {}\n", settings.plugin);
     text += fmt::format("route {}\noverlay {}\nview {}\n", static_cast<int>(settings.rules.route),
                         static_cast<int>(settings.rules.overlay), static_cast<int>(settings.rules.view));

@@ -46,6 +46,7 @@ struct Settings {
     std::string report;         ///< folder to write the report into; empty: none
     double step = 0;            ///< seconds per frame; 0: the clock's
     bool same_process = false;  ///< no renderer process of its own
+    float start_deadline = 20;  ///< seconds that a call of the renderer's start may take
     std::string plugin;
     TrackerRules rules;
     WaterPlan water;

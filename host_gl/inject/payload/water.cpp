@@ -111,6 +111,10 @@ class LibraryWater final : public Water {
         options.plugin = settings.plugin.empty() ? nullptr : settings.plugin.c_str();
         options.log = logLine;
         options.timings = settings.audit ? 1 : 0;
+        options.start_deadline = double{settings.start_deadline};
+        // Frames of a fixed length are to come out the same whenever the renderer is there.
+        options.start_in_background = settings.step > 0 || settings.same_process ? 0 : 1;
+        started_ = options.start_in_background == 0;
         if (const SluiceResult result = api_.create(&options, &fluid_); result != SLUICE_OK) {
             return failure(result, nullptr);
         }
@@ -131,9 +135,13 @@ class LibraryWater final : public Water {
         const SluiceResult result = api_.beginFrame(fluid_, view_.data(), projection_.data(), time);
         begun_ = true;
         report_.begin_s += now() - start;
-        if (result != SLUICE_OK) {
+        if (result < SLUICE_OK) {
             last_error_ = api_.lastError(fluid_);
+            if (!started_) {
+                return failure(result, fluid_);  // each try would hold up a frame
+            }
         }
+        started_ = started_ || result == SLUICE_OK;
         return {};  // sluice_end_frame will say so again, where it counts
     }
 
@@ -220,6 +228,7 @@ class LibraryWater final : public Water {
     WaterReport report_;
     std::string last_error_;
     bool begun_ = false;
+    bool started_ = false;  ///< there has been a renderer
 };
 
 }  // namespace

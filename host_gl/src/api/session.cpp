@@ -23,7 +23,7 @@ namespace {
 constexpr double kLongestStride = 0.1;
 
 /// A call that makes images and programs takes as long as it takes, on a machine that is busy too.
-constexpr std::uint64_t kSetUpDeadlineNs = 120'000'000'000;
+constexpr double kStartDeadline = 120.0;
 constexpr double kFrameDeadline = 5.0;
 /// 2^this frames lie between tries to start at most: a minute or so.
 constexpr std::uint32_t kLongestPause = 12;
@@ -47,26 +47,24 @@ Status checkContext() {
     return {};
 }
 
-Result<PluginLibrary> loadPlugin(const SluiceOptions& options) {
-    const std::filesystem::path folder = libraryFolder();
-    Result<std::filesystem::path> plugin = pluginPlace(options.plugin, folder);
-    if (!plugin) {
-        return plugin.error();
-    }
-    if (options.process == SLUICE_PROCESS_SAME) {
-        return PluginLibrary::load(plugin.value());
-    }
+/// At most an hour.
+std::uint64_t nanoseconds(double seconds, double otherwise) {
+    return static_cast<std::uint64_t>((seconds > 0.0 ? std::min(seconds, 3600.0) : otherwise) * 1e9);
+}
+
+Result<IsolationConfig> isolationOf(const SluiceOptions& options, std::filesystem::path plugin,
+                                    const std::filesystem::path& folder) {
     Result<std::filesystem::path> program = rendererPlace(options.renderer_program, folder);
     if (!program) {
         return program.error();
     }
-    const double deadline = options.frame_deadline > 0.0 ? std::min(options.frame_deadline, 3600.0) : kFrameDeadline;
     IsolationConfig config;
     config.program = std::move(program).value();
-    config.plugin = std::move(plugin).value();
-    config.call_timeout_ns = kSetUpDeadlineNs;
-    config.frame_call_timeout_ns = static_cast<std::uint64_t>(deadline * 1e9);
-    return PluginLibrary::isolated(config);
+    config.plugin = std::move(plugin);
+    config.call_timeout_ns = nanoseconds(options.start_deadline, kStartDeadline);
+    config.frame_call_timeout_ns = nanoseconds(options.frame_deadline, kFrameDeadline);
+    config.detached = true;  // an engine that waits for its children knows nothing of ours
+    return config;
 }
 
 /// Shader objects belong to whole share groups and are made once: a name that is not one of ours tells another context.
@@ -106,13 +104,26 @@ Result<std::unique_ptr<Session>> Session::create(const SluiceOptions& options) {
     if (Status status = checkContext(); !status) {
         return status.error();
     }
-    Result<PluginLibrary> library = loadPlugin(options);
-    if (!library) {
-        return library.error();
+    const std::filesystem::path folder = libraryFolder();
+    Result<std::filesystem::path> plugin = pluginPlace(options.plugin, folder);
+    if (!plugin) {
+        return plugin.error();
     }
-    std::unique_ptr<Session> session(new Session(std::move(library).value(), options, logSink(options)));
+    std::unique_ptr<Session> session(new Session(options, logSink(options)));
     session->look_ = defaultFluid();
     session->sky_ = defaultSky();
+    if (options.process == SLUICE_PROCESS_SAME) {
+        Result<PluginLibrary> library = PluginLibrary::load(plugin.value());
+        if (!library) {
+            return library.error();
+        }
+        session->library_.emplace(std::move(library).value());
+    } else if (Status status = session->isolate(options, std::move(plugin).value(), folder); !status) {
+        return status.error();
+    }
+    if (session->starting_ != nullptr) {
+        return session;
+    }
     // Whatever is wrong with the machine is to be known now and not in some frame. Without a size there is none to wait
     // for either: any will do, and the first frame brings the right one.
     const Extent extent =
@@ -123,8 +134,49 @@ Result<std::unique_ptr<Session>> Session::create(const SluiceOptions& options) {
     return session;
 }
 
+Status Session::isolate(const SluiceOptions& options, std::filesystem::path plugin,
+                        const std::filesystem::path& folder) {
+    Result<IsolationConfig> config = isolationOf(options, std::move(plugin), folder);
+    if (!config) {
+        return config.error();
+    }
+    if (options.start_in_background != 0) {
+        Result<std::unique_ptr<BackgroundStart>> begun = BackgroundStart::begin(std::move(config).value());
+        if (!begun) {
+            return begun.error();
+        }
+        starting_ = std::move(begun).value();
+        return {};
+    }
+    Result<PluginLibrary> library = PluginLibrary::isolated(config.value());
+    if (!library) {
+        return library.error();
+    }
+    library_.emplace(std::move(library).value());
+    return {};
+}
+
 Session::~Session() {
     drop();
+}
+
+Status Session::awaited() {
+    if (std::optional<Result<PluginLibrary>> made = starting_ != nullptr ? starting_->take() : std::nullopt; made) {
+        starting_.reset();
+        if (*made) {
+            library_.emplace(std::move(*made).value());
+        } else {
+            not_started_ = made->error();
+        }
+    }
+    return notThere();
+}
+
+Status Session::notThere() const {
+    if (library_) {
+        return {};
+    }
+    return not_started_ ? *not_started_ : Error{SLUICE_NOT_READY, "renderer", "its process is being started", ""};
 }
 
 void Session::drop() {
@@ -193,7 +245,7 @@ Status Session::start(const CurrentContext& context, const Extent& extent) {
         // The bridge needs a second context, and one of GLX would need the engine's Xlib to know of threads.
         config.timeline = SLUICE_TIMELINE_FINISH;
     }
-    Result<std::unique_ptr<FluidHost>> made = FluidHost::create(library_, config);
+    Result<std::unique_ptr<FluidHost>> made = FluidHost::create(*library_, config);
     if (!made) {
         return made.error();
     }
@@ -220,6 +272,9 @@ Status Session::settle(const std::optional<Extent>& wanted) {
     if (context.kind == ContextKind::None) {
         return noContext("Sluice");
     }
+    if (Status status = awaited(); !status) {
+        return status;
+    }
     if (host_ == nullptr || context != context_ || !isWitness(witness_)) {
         // A start takes long, and one that fails would again: 1, 2, 4 ... frames lie between the tries.
         if (start_error_ && context == tried_in_ && to_go_ > 0) {
@@ -233,7 +288,9 @@ Status Session::settle(const std::optional<Extent>& wanted) {
             log_(SLUICE_LOG_WARNING,
                  "another GL context is current: everything is made anew in it, and the fluid begins again");
         }
-        const Extent extent = wanted ? *wanted : follows_drawable_ ? Extent{64, 64} : extent_;
+        const Extent extent = wanted              ? *wanted
+                              : follows_drawable_ ? drawableExtent(context).value_or(Extent{64, 64})
+                                                  : extent_;
         tries_ = context == tried_in_ ? tries_ : 0;
         tried_in_ = context;
         Status status = start(context, extent);

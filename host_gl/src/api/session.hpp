@@ -3,12 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "api/background_start.hpp"
 #include "api/camera.hpp"
 #include "api/current_context.hpp"
 #include "api/log_sink.hpp"
@@ -52,9 +54,8 @@ class Session {
     [[nodiscard]] const char* lastError() const { return last_error_.c_str(); }
 
   private:
-    Session(PluginLibrary library, const SluiceOptions& options, LogSink log)
-        : library_(std::move(library)),
-          log_(std::move(log)),
+    Session(const SluiceOptions& options, LogSink log)
+        : log_(std::move(log)),
           extent_{options.width, options.height},
           follows_drawable_(options.width == 0 || options.height == 0),
           timeline_(static_cast<SluiceTimelineKind>(options.timeline)),
@@ -65,6 +66,12 @@ class Session {
     [[nodiscard]] bool active() const { return enabled_ && has_water_; }
     /// The present context is the one that the FluidHost lives in, and its objects are there.
     [[nodiscard]] bool reachable() const;
+    /// Begins to, or does, start the plugin in a process of its own.
+    [[nodiscard]] Status isolate(const SluiceOptions& options, std::filesystem::path plugin,
+                                 const std::filesystem::path& folder);
+    /// The plugin is there. SLUICE_NOT_READY while it is being started.
+    [[nodiscard]] Status awaited();
+    [[nodiscard]] Status notThere() const;
     /// A FluidHost in the present context, of the right size, with the scene that was asked for.
     [[nodiscard]] Status settle(const std::optional<Extent>& wanted);
     [[nodiscard]] Status start(const CurrentContext& context, const Extent& extent);
@@ -81,7 +88,9 @@ class Session {
 
     static constexpr std::size_t kTraceCapacity = 4096;  // events of a frame, and of the simulation beside it
 
-    PluginLibrary library_;
+    std::optional<PluginLibrary> library_;
+    std::unique_ptr<BackgroundStart> starting_;
+    std::optional<Error> not_started_;  ///< why there will be no plugin
     LogSink log_;
     Extent extent_{};
     bool follows_drawable_;

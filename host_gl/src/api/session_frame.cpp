@@ -103,6 +103,9 @@ Status Session::draw() {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame", "there is no camera",
                      "give matrices to sluice_begin_frame or sluice_set_camera"};
     }
+    if (Status status = notThere(); !status) {
+        return status;
+    }
     const CurrentContext present = currentContext();
     if (present.kind == ContextKind::None || !(present == context_) || host_ == nullptr) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame",

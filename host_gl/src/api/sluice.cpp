@@ -58,6 +58,7 @@ SluiceOptions defaultOptions() {
     options.process = SLUICE_PROCESS_OWN;
     options.timeline = SLUICE_TIMELINE_AUTO;
     options.frame_deadline = 5.0;
+    options.start_deadline = 120.0;
     return options;
 }
 

@@ -8,6 +8,7 @@
 #include <exception>
 #include <utility>
 
+#include "sluice/blocked_signals.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::host {
@@ -27,6 +28,7 @@ std::string whatEndsIt(std::uint64_t limit_ns, std::uint64_t spent_ns) {
 CallWatch::CallWatch(std::uint64_t patience_ns, Log log, CallLimits limits)
     : patience_ns_(patience_ns), log_(std::move(log)), limits_(limits) {
     if (patience_ns_ != 0) {
+        const BlockedSignals quiet;
         thread_ = std::thread([this] { run(); });
     }
 }

@@ -18,6 +18,8 @@
 #include <exception>
 #include <thread>
 
+#include "isolate/detached_spawn.hpp"
+#include "sluice/blocked_signals.hpp"
 #include "sluice/isolate/above_streams.hpp"
 #include "sluice/isolate/server.hpp"
 #include "sluice/trace.hpp"
@@ -29,6 +31,7 @@ namespace {
 /// Reaps it whenever the kernel lets go of it. Nothing of this process is touched, so nobody waits for that thread.
 void leaveToReaper(pid_t pid, UniqueFd pidfd) {
     try {
+        const BlockedSignals quiet;
         std::thread([pid, pidfd = std::move(pidfd)] {
             siginfo_t ended{};
             int failed = EINTR;
@@ -54,6 +57,13 @@ bool isHandedOn(int fd) {
     return flags >= 0 && (flags & FD_CLOEXEC) == 0;
 }
 
+/// This process, for one that is to end with it; none where the kernel has no such thing. Above the numbers that it is
+/// given there.
+UniqueFd thisProcess() {
+    const UniqueFd own(static_cast<int>(::syscall(SYS_pidfd_open, ::getpid(), 0)));
+    return own.valid() ? UniqueFd(::fcntl(own.get(), F_DUPFD_CLOEXEC, isolate::kHostFd + 1)) : UniqueFd();
+}
+
 /// Owns what posix_spawn reads.
 struct SpawnActions {
     SpawnActions() {
@@ -73,20 +83,22 @@ struct SpawnActions {
 }  // namespace
 
 bool ChildEnd::clean() const {
-    return kind == Kind::Reaped && WIFEXITED(status) && WEXITSTATUS(status) == 0;
+    return kind == Kind::Seen ? !killed : kind == Kind::Reaped && WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
 bool ChildEnd::late() const {
-    return late_s > 0.0 &&
-           (kind == Kind::Stuck || (kind == Kind::Reaped && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
+    return late_s > 0.0 && (kind == Kind::Stuck || (kind == Kind::Seen && killed) ||
+                            (kind == Kind::Reaped && WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL));
 }
 
 std::string ChildEnd::text() const {
     if (late()) {
-        const std::string killed = fmt::format("did not end within {:g} s and was killed", late_s);
-        return kind == Kind::Stuck ? killed + ", but " + ChildEnd{kind, status, after_kill_ns, 0.0}.text() : killed;
+        const std::string said = fmt::format("did not end within {:g} s and was killed", late_s);
+        return kind == Kind::Stuck ? said + ", but " + ChildEnd{kind, status, killed, after_kill_ns, 0.0}.text() : said;
     }
     switch (kind) {
+        case Kind::Seen:
+            return "has ended";
         case Kind::Unknown:
             return "has ended, how is not known";
         case Kind::Stuck:
@@ -109,11 +121,16 @@ Child::~Child() {
     }
 }
 
-Status Child::start(const std::filesystem::path& program, const std::string& argument,
-                    const isolate::Channel& channel) {
+Status Child::start(const std::filesystem::path& program, const std::string& argument, const isolate::Channel& channel,
+                    bool detached) {
     SpawnActions spawn;
+    const UniqueFd host = detached ? thisProcess() : UniqueFd();
+    detached_ = host.valid();
     // The channel first: where this process lacks a standard stream, it may be one of the three numbers.
     posix_spawn_file_actions_adddup2(&spawn.files, channel.fd(), isolate::kChannelFd);
+    if (detached_) {
+        posix_spawn_file_actions_adddup2(&spawn.files, host.get(), isolate::kHostFd);
+    }
     if (!isHandedOn(STDIN_FILENO)) {
         posix_spawn_file_actions_addopen(&spawn.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     }
@@ -122,15 +139,18 @@ Status Child::start(const std::filesystem::path& program, const std::string& arg
     }
     posix_spawn_file_actions_adddup2(&spawn.files, STDERR_FILENO, STDOUT_FILENO);
     // Drivers and applications do not mark every descriptor of theirs close-on-exec.
-    posix_spawn_file_actions_addclosefrom_np(&spawn.files, isolate::kChannelFd + 1);
+    posix_spawn_file_actions_addclosefrom_np(&spawn.files, (detached_ ? isolate::kHostFd : isolate::kChannelFd) + 1);
     sigset_t none;
     sigemptyset(&none);
     posix_spawnattr_setsigmask(&spawn.attributes, &none);
     posix_spawnattr_setflags(&spawn.attributes, POSIX_SPAWN_SETSIGMASK);
-    std::array<std::string, 4> words{program.string(), "--parent", std::to_string(::getpid()), argument};
+    std::array<std::string, 4> words{program.string(), detached_ ? "--host" : "--parent", std::to_string(::getpid()),
+                                     argument};
     std::array<char*, 5> arguments{words[0].data(), words[1].data(), words[2].data(), words[3].data(), nullptr};
+    UniqueFd end;
     const int failed =
-        ::posix_spawn(&pid_, program.c_str(), &spawn.files, &spawn.attributes, arguments.data(), environ);
+        detached_ ? spawnDetached({program.c_str(), &spawn.files, &spawn.attributes, arguments.data()}, pid_, end)
+                  : ::posix_spawn(&pid_, program.c_str(), &spawn.files, &spawn.attributes, arguments.data(), environ);
     if (failed != 0) {
         pid_ = -1;
         return Error{SLUICE_ERROR_UNSUPPORTED, fmt::format("renderer process '{}'", program.string()),
@@ -139,7 +159,8 @@ Status Child::start(const std::filesystem::path& program, const std::string& arg
     }
     running_ = true;
     // Kernels before 5.3 have none, and sandboxes may forbid it; the end of the channel then has to do.
-    pidfd_ = isolate::aboveStreams(UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0))));
+    pidfd_ = isolate::aboveStreams(detached_ ? std::move(end)
+                                             : UniqueFd(static_cast<int>(::syscall(SYS_pidfd_open, pid_, 0))));
     return {};
 }
 
@@ -161,6 +182,11 @@ void Child::sendKill() const {
 }
 
 bool Child::waited(ChildEnd& end) {
+    if (detached_) {
+        pollfd ended{pidfd_.get(), POLLIN, 0};
+        end.kind = ChildEnd::Kind::Seen;
+        return pidfd_.valid() ? ::poll(&ended, 1, 0) > 0 : ::kill(pid_, 0) != 0;
+    }
     int status = 0;
     const pid_t found = watch_.wait ? watch_.wait(pid_, &status) : ::waitpid(pid_, &status, WNOHANG);
     if (found == pid_) {
@@ -185,11 +211,14 @@ ChildEnd Child::reap(std::uint64_t grace_ns) {
             const std::uint64_t now = monotonicNanoseconds();
             if (now - begin >= grace_ns) {
                 killed = killed == 0 ? now : killed;
+                end.killed = true;
                 end.late_s = static_cast<double>(grace_ns) * 1e-9;
                 sendKill();
                 if (now - killed >= watch_.after_kill_ns) {
                     running_ = false;
-                    leaveToReaper(pid_, pidfd_.duplicate());
+                    if (!detached_) {
+                        leaveToReaper(pid_, pidfd_.duplicate());
+                    }
                     end.kind = ChildEnd::Kind::Stuck;
                     end.after_kill_ns = watch_.after_kill_ns;
                     return end;

@@ -48,7 +48,7 @@ Status RendererProcess::spawn(const isolate::Channel& there) {
     // dlopen searches the library path for a name without a slash.
     std::error_code ignored;
     const std::string plugin = std::filesystem::absolute(config_.plugin, ignored).string();
-    if (Status started = child_.start(config_.program, plugin, there); !started) {
+    if (Status started = child_.start(config_.program, plugin, there, config_.detached); !started) {
         return started;
     }
     last_words_ = Error{SLUICE_ERROR_DEVICE_LOST, fmt::format("renderer process {}", child_.pid()),

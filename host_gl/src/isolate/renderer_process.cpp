@@ -11,6 +11,7 @@
 #include <variant>
 
 #include "sluice/abi_sizes.hpp"
+#include "sluice/blocked_signals.hpp"
 #include "sluice/trace.hpp"
 
 namespace sluice::host {
@@ -69,6 +70,7 @@ Result<std::unique_ptr<RendererProcess>> RendererProcess::start(const IsolationC
         process->channel_ = std::move(ends.value().first);
         // The kernel ends the process with the thread that starts it, and this thread may be the first to end.
         try {
+            const BlockedSignals quiet;
             process->listener_ =
                 std::thread([raw = process.get(), there = &ends.value().second] { raw->live(*there); });
         } catch (const std::system_error& failed) {

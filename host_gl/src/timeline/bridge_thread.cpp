@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "context/profile.hpp"
+#include "sluice/blocked_signals.hpp"
 #include "timeline/cpu_wait.hpp"
 #include "timeline/timeline_events.hpp"
 
@@ -25,7 +26,10 @@ BridgeThread::BridgeThread(BridgeContext context, TimelineDeps deps)
 
 Result<std::unique_ptr<BridgeThread>> BridgeThread::start(BridgeContext context, const TimelineDeps& deps) {
     std::unique_ptr<BridgeThread> bridge(new BridgeThread(std::move(context), deps));
-    bridge->thread_ = std::thread([raw = bridge.get()] { raw->run(); });
+    {
+        const BlockedSignals quiet;
+        bridge->thread_ = std::thread([raw = bridge.get()] { raw->run(); });
+    }
     std::unique_lock lock(bridge->mutex_);
     bridge->started_.wait(lock, [&] { return bridge->start_.has_value(); });
     const Status status = *bridge->start_;

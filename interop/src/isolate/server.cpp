@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "sluice/isolate/server.hpp"
 
+#include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <charconv>
 #include <csignal>
 #include <cstring>
@@ -13,6 +16,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <type_traits>
 #include <utility>
 
@@ -21,6 +25,7 @@
 #include "isolate/simulation_memory.hpp"
 #include "sluice/abi_boundary.hpp"
 #include "sluice/abi_sizes.hpp"
+#include "sluice/blocked_signals.hpp"
 #include "sluice/isolate/sealed_memory.hpp"
 #include "sluice/isolate/shared_timeline.hpp"
 #include "sluice/simulation_arrays.hpp"
@@ -384,6 +389,20 @@ bool endWithHost(std::string_view host) {
     std::from_chars(host.data(), host.data() + host.size(), pid);
     (void)::prctl(PR_SET_PDEATHSIG, SIGKILL);
     return ::getppid() == pid;
+}
+
+bool endWithWatchedHost() {
+    pollfd host{kHostFd, POLLIN, 0};
+    if (::fcntl(kHostFd, F_SETFD, FD_CLOEXEC) != 0 || ::poll(&host, 1, 0) != 0) {
+        return false;
+    }
+    const BlockedSignals quiet;
+    std::thread([host]() mutable {
+        while (::poll(&host, 1, -1) < 0 && errno == EINTR) {
+        }
+        (void)::kill(::getpid(), SIGKILL);
+    }).detach();
+    return true;
 }
 
 Status serve(const SluiceRendererApi& api, const Channel& channel) {

@@ -8,6 +8,7 @@
  *   framebuffer  (is deleted while it is bound)   kill=N  (after frame N, the renderer's process, if there is one)
  *   thread  (draws in another one, and destroys the context under it)   terminate  (the display in the middle, then
  * again) default  (the swap by dlsym(RTLD_DEFAULT))   epoxy  (binds framebuffers through libepoxy, from frame 3 on)
+ *   pace=MS  (that long a pause between frames)   signals  (how many threads would take a signal)
  *   wait  (for all children at the end, of which it has one)   die  (by SIGKILL at the end, after it named the
  * renderer) */
 #define _GNU_SOURCE
@@ -30,8 +31,8 @@
 #include <unistd.h>
 
 static struct {
-    int frames, width, height, kill;
-    int quiet, bare, attributes, pushes, framebuffer, thread, terminate, by_default, epoxy, wait, die;
+    int frames, width, height, kill, pace;
+    int quiet, bare, attributes, pushes, framebuffer, thread, terminate, by_default, epoxy, wait, die, signals;
 } options = {.frames = 6, .width = 64, .height = 48, .kill = -1};
 
 static EGLDisplay display;
@@ -252,6 +253,28 @@ static void wait_for_all(void) {
     (void)printf("children %d signals %d\n", waited, atomic_load(&children_ended));
 }
 
+/* SIGTERM is bit 14 of the mask. */
+static int threads_open_to_signals(void) {
+    DIR* folder = opendir("/proc/self/task");
+    int open = 0;
+    for (const struct dirent* entry = NULL; folder != NULL && (entry = readdir(folder)) != NULL;) {
+        char path[300], line[256];
+        (void)snprintf(path, sizeof(path), "/proc/self/task/%s/status", entry->d_name);
+        FILE* file = fopen(path, "r");
+        while (file != NULL && fgets(line, sizeof(line), file) != NULL) {
+            unsigned long long blocked = 0;
+            if (sscanf(line, "SigBlk: %llx", &blocked) == 1) {
+                open += (blocked >> 14 & 1) == 0;
+            }
+        }
+        if (file != NULL) {
+            (void)fclose(file);
+        }
+    }
+    (void)closedir(folder);
+    return open;
+}
+
 static long number_of(const char* path, int entries) {
     long first = 0, second = 0, count = 0;
     if (entries) {
@@ -296,6 +319,7 @@ static void show_all(void) {
             make_current();
         }
         show(frame);
+        (void)usleep(1000U * (unsigned)options.pace);
         if (frame == options.kill && renderer() != 0) {
             (void)kill(renderer(), SIGKILL);
             (void)usleep(100000);
@@ -317,6 +341,7 @@ static void read_options(int argc, char** argv) {
         (void)sscanf(word, "frames=%d", &options.frames);
         (void)sscanf(word, "size=%dx%d", &options.width, &options.height);
         (void)sscanf(word, "kill=%d", &options.kill);
+        (void)sscanf(word, "pace=%d", &options.pace);
         options.quiet |= strcmp(word, "quiet") == 0;
         options.bare |= strcmp(word, "bare") == 0;
         options.attributes |= strcmp(word, "attributes") == 0;
@@ -327,6 +352,7 @@ static void read_options(int argc, char** argv) {
         options.by_default |= strcmp(word, "default") == 0;
         options.epoxy |= strcmp(word, "epoxy") == 0;
         options.wait |= strcmp(word, "wait") == 0;
+        options.signals |= strcmp(word, "signals") == 0;
         options.die |= strcmp(word, "die") == 0;
     }
 }
@@ -339,6 +365,9 @@ int main(int argc, char** argv) {
         destroy_under_a_thread();
     } else {
         show_all();
+    }
+    if (options.signals) {
+        (void)printf("threads open to signals %d\n", threads_open_to_signals());
     }
     if (options.wait) {
         wait_for_all();

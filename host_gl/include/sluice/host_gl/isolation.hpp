@@ -25,6 +25,9 @@ struct IsolationConfig {
     /// Asked several times a second by the thread that waits in a call; may be empty. Once it says yes, the call may
     /// take 2 s more. It must not throw.
     std::function<bool()> hurry;
+    /// The processes are no children of this one, which neither its wait() nor its SIGCHLD handler will hear of; how
+    /// they ended is then not known. Where the kernel has no pidfd (before 5.3) they are children all the same.
+    bool detached = false;
     std::optional<FaultPlan> fault;  ///< for tests; one of those that are ofProcess()
 };
 
