@@ -5,7 +5,6 @@
 // below that of rest pushes nobody: at a free surface it only means that there are too few particles to ask.
 // Input: sorted positions, lists. Outputs: position with lambda (m^2, <= 0) in w; gradient and density of the walls.
 #define MESH_BINDING 6
-#define SEEN_BINDING 7
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;

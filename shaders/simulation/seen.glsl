@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a camera sees as a solid: an image of depths, each texel of which stands for a piece of a slab. Passes define
+// What a camera sees as a solid: an image of depths, each texel of which stands for a piece of a surface with one side. Passes define
 // SEEN_BINDING first. World space and eye space (right-handed, looks down -z), metres. docs/simulation.md has the rule and
 // its reasons; DepthField of renderer_vk/src/simulation/depth_field.hpp is the same in doubles.
 #ifndef SLUICE_SEEN_GLSL
@@ -10,7 +10,7 @@ layout(constant_id = 4) const uint SEEN = 0u;
 layout(std430, set = 0, binding = SEEN_BINDING) readonly buffer Seen {
     vec4 seen_row[3];  // world to eye, rigid
     vec4 seen_lens;    // ndc = xy * slope - zw, slope = eye.xy / depth
-    vec4 seen_limits;  // x = near plane, y = thickness of the slab, zw = size of the view in texels
+    vec4 seen_limits;  // x = near plane, y = least reach behind what is seen, zw = size of the view in texels
     uvec4 seen_size;   // xy = texels, the last of which may reach out of the view; none: nothing is seen
     float seen_depth[];  // along -z, bottom row first
 };
@@ -20,6 +20,8 @@ struct SeenPlane {
     vec3 normal;     // unit, world, towards the eye
     float distance;  // of x to the plane, negative behind it
     float stretch;   // what distances are multiplied with where the plane is seen at a grazing angle; 0: nothing is seen
+    float level;     // distance of who is a radius away along the view
+    float reach;     // who is deeper behind it is hidden, and not in it
 };
 
 // 0 where nothing is seen: nothing that a camera draws is nearer than its near plane.
@@ -57,7 +59,7 @@ vec3 seenTangent(ivec2 texel, ivec2 axis, float depth) {
 }
 
 SeenPlane seenPlane(vec3 x) {
-    const SeenPlane nothing = SeenPlane(vec3(0, 1, 0), 1e9, 0.0);
+    const SeenPlane nothing = SeenPlane(vec3(0, 1, 0), 1e9, 0.0, 0.0, 0.0);
     const vec3 eye = vec3(dot(seen_row[0].xyz, x) + seen_row[0].w, dot(seen_row[1].xyz, x) + seen_row[1].w,
                           dot(seen_row[2].xyz, x) + seen_row[2].w);
     const float depth = -eye.z;
@@ -90,54 +92,44 @@ SeenPlane seenPlane(vec3 x) {
     // The sine of the angle at which the plane is seen, but for the length of the ray: below 1/4 a quarter of the way
     // along the ray counts as the distance, so that nothing far in front of a silhouette or behind it is touched.
     const float facing = max(-dot(normal, eye) / depth, 1.0 / 64.0);
+    const vec2 texel_size = 2.0 * surface / abs(seen_limits.zw * seen_lens.xy);
     return SeenPlane(normal.x * seen_row[0].xyz + normal.y * seen_row[1].xyz + normal.z * seen_row[2].xyz,
-                     dot(normal, eye - place), max(1.0, 0.25 / facing));
+                     dot(normal, eye - place), max(1.0, 0.25 / facing), p.low.w * max(facing, 0.25),
+                     max(seen_limits.y, max(texel_size.x, texel_size.y)));
 }
 
-// The slab has two faces. 1: that towards the eye is the nearer one; -1: the other.
-float seenSide(float distance) { return distance >= -0.5 * seen_limits.y ? 1.0 : -1.0; }
-// To the face on that side.
-float seenGap(float distance, float side) { return side > 0.0 ? distance : -seen_limits.y - distance; }
-
-// As a wall whose place fluid at rest takes: xyz = unit normal out of the nearer face, w = distance to it. Who has got into
-// the slab is about to be taken out of it: the wall fades for it within a radius, or fluid that a surface has come over would
-// burst.
+// For adhesion: xyz = unit normal towards the eye, w = distance to it. For who is hidden there is no wall. It takes no part
+// in densities: it is known of one texel alone, and what changes from texel to texel would drive the fluid.
 vec4 distanceToSeen(vec3 x) {
     const SeenPlane plane = seenPlane(x);
-    if (plane.stretch == 0.0) {
-        return vec4(0, 1, 0, 1e9);
-    }
     const float distance = plane.distance * plane.stretch;
-    const float side = seenSide(distance);
-    const float gap = seenGap(distance, side);
-    return vec4(side * plane.normal, gap < 0.0 ? -4.0 * gap : gap);
+    return plane.stretch == 0.0 || distance < -plane.reach ? vec4(0, 1, 0, 1e9) : vec4(plane.normal, distance);
 }
 
-// Where a step starts: whom the surface has come over is taken out of it by up to a quarter of a radius, which is no
+// Where a step starts: whom the surface has come over is taken to it by up to a quarter of a radius, which is no
 // velocity, but drives the fluid in front of it.
 vec3 rescuedFromSeen(vec3 x) {
     const SeenPlane plane = seenPlane(x);
-    if (plane.stretch == 0.0) {
+    const float distance = plane.distance * plane.stretch;
+    if (plane.stretch == 0.0 || distance < -plane.reach) {
         return x;
     }
-    const float distance = plane.distance * plane.stretch;
-    const float side = seenSide(distance);
-    const float way = max(p.low.w - seenGap(distance, side), 0.0) / plane.stretch;
-    return x + plane.normal * (side * min(way, 0.25 * p.low.w));
+    const float way = max(-distance, 0.0) / plane.stretch;
+    return x + plane.normal * min(way, 0.25 * p.low.w);
 }
 
-// A radius away from the face that `start` was nearer to, or as near to it as `start` was: what is taken back is never
-// more than the way from there.
+// Who was in front stays a radius away from it along the view, or as near to it as `start` was; who was hidden stays so:
+// what is taken back is never more than the way from there.
 vec3 collidedWithSeen(vec3 x, vec3 start) {
     const SeenPlane plane = seenPlane(x);
     if (plane.stretch == 0.0) {
         return x;
     }
     const float before = (plane.distance + dot(plane.normal, start - x)) * plane.stretch;
-    const float side = seenSide(before);
-    const float level = min(p.low.w, seenGap(before, side));
-    const float way = max(level - seenGap(plane.distance * plane.stretch, side), 0.0) / plane.stretch;
-    return x + plane.normal * (side * way);
+    const float distance = plane.distance * plane.stretch;
+    const float way = before < -plane.reach ? min(-plane.reach - distance, 0.0)
+                                            : max(min(plane.level, before) - distance, 0.0);
+    return x + plane.normal * (way / plane.stretch);
 }
 
 #endif

@@ -130,12 +130,6 @@ vec4 wallsAt(vec3 x) {
         walls = withWall(walls, d.xyz, d.w);
     }
 #endif
-#ifdef SEEN_BINDING
-    if (SEEN == 1u) {
-        const vec4 d = distanceToSeen(x);
-        walls = withWall(walls, d.xyz, d.w);
-    }
-#endif
     return walls;
 }
 #ifdef BODIES_BINDING

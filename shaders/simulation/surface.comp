@@ -5,7 +5,6 @@
 // of the surface and about zero within, and the density (Akinci et al. 2013). Fluid at rest stands for walls, so that a wall
 // is no surface.
 #define MESH_BINDING 5
-#define SEEN_BINDING 6
 #include "solids.glsl"
 
 layout(local_size_x = 64) in;

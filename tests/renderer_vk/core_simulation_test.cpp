@@ -267,8 +267,8 @@ TEST_F(LiveFluid, WaitsForTheDepthOfTheFrameThatItCollidesWith) {
     };
     EXPECT_EQ(refused(9, 0, 0.0F), SLUICE_ERROR_INVALID_ARGUMENT);
     EXPECT_EQ(refused(1, 2, 0.0F), SLUICE_ERROR_INVALID_ARGUMENT);
-    EXPECT_EQ(refused(1, 0, 0.1F), SLUICE_ERROR_INVALID_ARGUMENT);
-    EXPECT_NE(std::string(said.message).find("0.1 m is outside [0.12 (4 radii)"), std::string::npos) << said.message;
+    EXPECT_EQ(refused(1, 0, 0.02F), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(std::string(said.message).find("0.02 m is outside [0.03 (a radius)"), std::string::npos) << said.message;
     ASSERT_EQ(refused(1, 0, 0.12F), SLUICE_OK);
     ASSERT_EQ(simulate(1, 0.0), SLUICE_OK);
     SluiceFrame stretched = frameOf(1, 2, SLUICE_VIEW_FLUID);

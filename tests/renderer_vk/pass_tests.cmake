@@ -25,6 +25,7 @@ sluice_add_test(renderer_vk_simulation_test OPTIMISED
     simulation_fluids_test.cpp
     simulation_mesh_test.cpp
     simulation_physics_test.cpp
+    simulation_seen_pool_test.cpp
     simulation_seen_test.cpp
     simulation_shape_test.cpp
     simulation_sources_test.cpp

@@ -533,7 +533,7 @@ typedef struct SluiceSimulation {
      * before. */
     uint32_t depth_scale; /* pixels each way that become one, the nearest of them: 1..8; 0: the depth is no solid */
     uint32_t depth_lag; /* 1..frames_in_flight; 0: frames_in_flight, with which the simulation runs beside the frames */
-    float depth_thickness;   /* metres behind what is seen that are solid; 0: eight radii */
+    float depth_thickness;   /* metres behind what is seen that are solid; 0: a radius */
     uint32_t depth_reserved; /* zero */
     /* Where the water turns white (Ihmsen et al. 2012), for frames with SluiceFluid::foam. Each pair: from where a
      * potential counts, and from where it is 1; 0, 0: the default. */

@@ -79,9 +79,9 @@ Status readDepth(const SluiceSimulation& s, LiveSetup& to) {
                        fmt::format("{} is outside 0..{} (frames_in_flight)", s.depth_lag, s.frames_in_flight));
     }
     const float thickness = s.depth_thickness != 0.0F ? s.depth_thickness : kThicknessInRadii * s.radius;
-    if (!(thickness >= 4.0F * s.radius && thickness <= 1e6F)) {
+    if (!(thickness >= s.radius && thickness <= 1e6F)) {
         return invalid("simulation.depth_thickness",
-                       fmt::format("{} m is outside [{} (4 radii), 1e6]", thickness, 4.0F * s.radius));
+                       fmt::format("{} m is outside [{} (a radius), 1e6]", thickness, s.radius));
     }
     to.settings.seen = std::make_shared<const DepthField>();
     to.depth_scale = s.depth_scale;

@@ -112,9 +112,9 @@ Status checkDepthField(const DepthField& field, float radius) {
     if (texels == 0) {
         return {};
     }
-    const float thinnest = 4.0F * radius;
+    const float thinnest = radius;
     if (!(field.thickness >= thinnest && field.thickness <= 1e6F)) {
-        return wrong(fmt::format("a thickness of {} m (4 radii) or more", thinnest),
+        return wrong(fmt::format("a thickness of {} m (a radius) or more", thinnest),
                      fmt::format("{}", field.thickness));
     }
     return checkDepthView(field.camera);
@@ -205,13 +205,18 @@ std::optional<SolidContact> contactWith(const DepthField& field, const Vector& x
     }
     const double facing = std::max(-dot(normal, eye) / depth, kLeastFacing);
     const double distance = dot(normal, minus(eye, place)) * std::max(1.0, kGrazing / facing);
-    const auto thickness = double{field.thickness};
-    const bool front = distance >= -0.5 * thickness;
+    double reach = double{field.thickness};
+    for (std::size_t i = 0; i < 2; ++i) {
+        reach = std::max(reach, surface * 2.0 / (lens.size.at(i) * std::abs(lens.scale.at(i))));
+    }
+    if (distance < -reach) {
+        return std::nullopt;
+    }
     Vector world{};
     for (std::size_t row = 0; row < 3; ++row) {
-        world = plus(world, times(front ? normal.at(row) : -normal.at(row), axes[row]));
+        world = plus(world, times(normal.at(row), axes[row]));
     }
-    return SolidContact{world, front ? distance : -thickness - distance};
+    return SolidContact{world, distance};
 }
 
 }  // namespace sluice::vk

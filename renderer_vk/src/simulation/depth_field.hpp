@@ -14,10 +14,9 @@
 
 namespace sluice::vk {
 
-/// Of the slab behind what is seen, where nobody says another thickness: its front half, from which water leaves
-/// towards the eye, is then a support of the kernels deep, and a particle that flies as far as the rule for the time
-/// step lets it (0.4 supports) is far from leaving by the back.
-inline constexpr float kThicknessInRadii = 8.0F;
+/// Deep behind what is seen water is hidden, and not in it: where nobody says how deep, a radius, so that water that
+/// touches the back of even the thinnest wall is left alone.
+inline constexpr float kThicknessInRadii = 1.0F;
 /// Texels of one image: that of the largest screen that is shared.
 inline constexpr std::uint64_t kMostSeenTexels = std::uint64_t{1} << 28U;
 
@@ -32,7 +31,7 @@ struct DepthField {
     std::uint32_t width = 0, height = 0;
     std::array<float, 2> view_size{};  ///< of the camera's view in texels, as the last ones may reach out of it
     DepthView camera;
-    float thickness = 0.0F;  ///< m
+    float thickness = 0.0F;  ///< m, behind what is seen; not less than a texel is wide there
     std::vector<float>
         depth;  ///< m along -z, bottom row first; not finite, below half the near plane or above 1e29: nothing is there
 };
@@ -58,7 +57,8 @@ static_assert(sizeof(DepthHeader) == 96, "std430");
 [[nodiscard]] DepthField depthField(const DepthView& camera, std::uint32_t width, std::uint32_t height,
                                     std::uint32_t scale, float thickness, const std::vector<float>& depths);
 
-/// The nearer face of the slab as x sees it; none outside of the view, or where the image has nothing.
+/// The surface that x is in front of or in; none outside of the view, where the image has nothing, and for who is
+/// hidden.
 [[nodiscard]] std::optional<SolidContact> contactWith(const DepthField& field, const Vector& x);
 
 }  // namespace sluice::vk

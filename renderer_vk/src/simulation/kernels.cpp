@@ -47,7 +47,7 @@ struct KernelDesc {
 
 std::vector<KernelDesc> descriptions(const Features& features) {
     using enum Slot;
-    const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}, {Meshes}, {Seen}};
+    const std::vector<Use> lambda{texels(Sorted), texels(List), {ListCount}, {Pushed}, {Walls}, {Meshes}};
     const std::uint32_t bodies = features.bodies ? 1 : 0;
     const std::uint32_t meshes = features.meshes ? 1 : 0;
     const std::uint32_t seen = features.seen ? 1 : 0;
@@ -112,7 +112,7 @@ std::vector<KernelDesc> descriptions(const Features& features) {
         {Kernel::Curl, simulation_curl_comp, {texels(Sorted), texels(Moving), texels(List), {ListCount}, {Slot::Curl}}},
         {Kernel::Surface,
          simulation_surface_comp,
-         {texels(Sorted), texels(List), {ListCount}, {Slot::Walls}, {Meshes}, {Seen}},
+         {texels(Sorted), texels(List), {ListCount}, {Slot::Walls}, {Meshes}},
          {0, 0, 0, meshes, seen}},
         {Kernel::Finish,
          simulation_finish_comp,

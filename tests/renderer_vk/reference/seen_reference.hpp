@@ -96,7 +96,10 @@ struct SeenPlane {
     Vec normal{};
     double offset = 0.0;
     double stretch = 1.0;
+    double level = 0.0;  ///< of who is a radius away along the view, over the radius
+    double reach = 0.0;
     [[nodiscard]] double distance(const Vec& x) const { return stretch * (dot(normal, x) - offset); }
+    [[nodiscard]] bool hides(const Vec& x) const { return distance(x) < -reach; }
 };
 
 inline std::optional<SeenPlane> planeSeenAt(const DepthField& field, const Vec& x) {
@@ -122,36 +125,28 @@ inline std::optional<SeenPlane> planeSeenAt(const DepthField& field, const Vec& 
         normal = to_eye - dot(to_eye, along) / dot(along, along) * along;
     }
     normal = (dot(normal, to_eye) < 0.0 ? -1.0 : 1.0) / norm(normal) * normal;
-    const double facing = -1.0 * dot(normal, x - seer.eye()) / seer.depthOf(x);
-    return SeenPlane{normal, dot(normal, *here), std::max(1.0, 1.0 / (4.0 * std::max(facing, 1.0 / 64.0)))};
-}
-
-/// Which face of the slab is meant (1: towards the eye), and how far it is.
-inline double faceOf(const DepthField& field, double distance) {
-    return distance >= -double{field.thickness} / 2.0 ? 1.0 : -1.0;
-}
-inline double toFace(const DepthField& field, double distance, double face) {
-    return face > 0.0 ? distance : -double{field.thickness} - distance;
+    const double facing = std::max(-1.0 * dot(normal, x - seer.eye()) / seer.depthOf(x), 1.0 / 64.0);
+    const auto side = [&](long dx, long dy) {
+        return norm(*seer.surface(column, row) - seer.eye() -
+                    seer.depthOf(*here) *
+                        seer.way(static_cast<double>(column + dx) + 0.5, static_cast<double>(row + dy) + 0.5));
+    };
+    return SeenPlane{normal, dot(normal, *here), std::max(1.0, 1.0 / (4.0 * facing)), std::max(facing, 0.25),
+                     std::max({double{field.thickness}, side(1, 0), side(0, 1)})};
 }
 
 inline std::optional<Contact> touchingSeen(const DepthField& field, const Vec& x) {
     const auto plane = planeSeenAt(field, x);
-    if (!plane) {
-        return std::nullopt;
-    }
-    const double face = faceOf(field, plane->distance(x));
-    return Contact{face * plane->normal, toFace(field, plane->distance(x), face)};
+    return plane && !plane->hides(x) ? std::optional(Contact{plane->normal, plane->distance(x)}) : std::nullopt;
 }
 
 inline Vec rescued(const SimulationSettings& s, const Vec& x) {
     const auto plane = s.seen ? planeSeenAt(*s.seen, x) : std::nullopt;
-    if (!plane) {
+    if (!plane || plane->hides(x)) {
         return x;
     }
-    const auto r = double{s.radius};
-    const double face = faceOf(*s.seen, plane->distance(x));
-    const double way = std::max(r - toFace(*s.seen, plane->distance(x), face), 0.0) / plane->stretch;
-    return x + face * std::min(way, r / 4.0) * plane->normal;
+    const double way = std::max(-plane->distance(x), 0.0) / plane->stretch;
+    return x + std::min(way, double{s.radius} / 4.0) * plane->normal;
 }
 
 inline Vec keptInFront(const SimulationSettings& s, const Vec& x, const Vec& start) {
@@ -159,10 +154,10 @@ inline Vec keptInFront(const SimulationSettings& s, const Vec& x, const Vec& sta
     if (!plane) {
         return x;
     }
-    const double face = faceOf(*s.seen, plane->distance(start));
-    const double level = std::min(double{s.radius}, toFace(*s.seen, plane->distance(start), face));
-    const double way = std::max(level - toFace(*s.seen, plane->distance(x), face), 0.0) / plane->stretch;
-    return x + face * way * plane->normal;
+    const double there = plane->distance(x);
+    const double level = std::min(double{s.radius} * plane->level, plane->distance(start));
+    const double goal = plane->hides(start) ? std::min(there, -plane->reach) : std::max(there, level);
+    return x + (goal - there) / plane->stretch * plane->normal;
 }
 
 }  // namespace sluice::vk::test::reference

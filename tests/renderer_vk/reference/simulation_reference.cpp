@@ -122,7 +122,7 @@ std::vector<Vec> surfaceForces(const SimulationSettings& s, const std::vector<Fl
                                  mass(fluids[j]) / (mass(fluids[i]) + mass(fluids[j]));
             pull[i] = pull[i] - gamma * 2.0 / (density[i] + density[j]) * force;
         }
-        for (const Contact& contact : contacts(s, bodies, x[i])) {
+        for (const Contact& contact : contacts(s, bodies, x[i], true)) {
             const double d = std::clamp(contact.distance, 0.0, h);
             // Over the half-space behind the wall, in shells about the particle.
             const double sum = integral(std::max(d, h / 2.0), h, [&](double r) {

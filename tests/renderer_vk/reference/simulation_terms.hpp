@@ -165,8 +165,8 @@ inline void push(ReferenceBody& body, const Vec& x, const Vec& by) {
     body.moment = body.moment + cross(x - body.centre, by);
 }
 
-/// The six faces of the domain, then the solids, then the bodies, then what is seen.
-inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& bodies, const Vec& x) {
+/// The six faces of the domain, then the solids, then the bodies, then, of adhesion alone, what is seen.
+inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& bodies, const Vec& x, bool adhering) {
     std::vector<Contact> all;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         Vec normal{};
@@ -180,9 +180,8 @@ inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& 
     for (const ReferenceBody& body : bodies) {
         all.push_back(touching(body.solid, x));
     }
-    if (const auto seen = s.seen ? touchingSeen(*s.seen, x) : std::nullopt; seen) {
-        // A wall fades within a radius, a quarter of the kernels, for who is in it.
-        all.push_back({seen->normal, std::max(seen->distance, -4.0 * seen->distance)});
+    if (const auto seen = s.seen && adhering ? touchingSeen(*s.seen, x) : std::nullopt; seen) {
+        all.push_back(*seen);
     }
     return all;
 }
@@ -236,7 +235,7 @@ struct Walls {
 inline Walls wallsAt(const SimulationSettings& s, const Bodies& bodies, const Kernels& kernels, const Vec& x) {
     const double h = kernels.h;
     Walls walls;
-    for (const Contact& contact : contacts(s, bodies, x)) {
+    for (const Contact& contact : contacts(s, bodies, x, false)) {
         const double d = std::clamp(contact.distance, 0.0, h);
         const double share = kernels.wall * kernels.halfSpace(d);
         const double slope = kernels.halfSpaceSlope(d);
