@@ -152,7 +152,7 @@ void checkFluids(ObjectReader& reader, const Simulation& s) {
     }
 }
 
-/// A body would go through what is only seen, and a slab that is thin does not hold.
+/// A body would go through what is only seen, and what is thinner than a particle does not hold.
 void checkDepth(ObjectReader& reader, const Simulation& s) {
     if (s.collide != kCollideDepth) {
         return;
@@ -161,8 +161,8 @@ void checkDepth(ObjectReader& reader, const Simulation& s) {
         reader.fail("simulation/bodies", "none where \"collide\" is \"depth\": bodies do not meet what is seen",
                     fmt::format("{}", s.bodies.size()));
     }
-    if (const float least = 4.0F * s.radius; s.depth.thickness != 0.0F && s.depth.thickness < least) {
-        reader.fail("simulation/depth/thickness", fmt::format("0, or a number >= {}, which is 4 radii", least),
+    if (const float least = s.radius; s.depth.thickness != 0.0F && s.depth.thickness < least) {
+        reader.fail("simulation/depth/thickness", fmt::format("0, or a number >= {}, which is a radius", least),
                     fmt::format("{}", s.depth.thickness));
     }
 }

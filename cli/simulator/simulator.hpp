@@ -134,7 +134,7 @@ struct SeenImage {
     std::uint32_t width, height;
 };
 /// What an image of depths, bottom row first, is as a solid: the nearest of each `scale` times `scale` of them, on a
-/// slab so thick (0: eight radii). Refused, with the reason, if it cannot be one.
+/// surface so thick (0: a radius). Refused, with the reason, if it cannot be one.
 [[nodiscard]] Result<std::shared_ptr<const vk::DepthField>> seenDepth(const SeenImage& image,
                                                                       const std::vector<float>& depth,
                                                                       std::uint32_t scale, float thickness,

@@ -125,7 +125,7 @@ class SimulateSeen : public Simulate {
         EXPECT_TRUE(set.ok()) << name;
         double found = 0.0;
         for (std::size_t i = 1; set && i < set.value().position.size(); i += 3) {
-            found += set.value().position[i] < 0.34F ? 1.0 : 0.0;
+            found += set.value().position[i] < 0.32F ? 1.0 : 0.0;
         }
         return set ? found / static_cast<double>(set.value().count()) : 0.0;
     }
@@ -171,8 +171,8 @@ TEST_F(SimulateSeen, APictureThatIsNotOfTheScenesCameraIsRefusedByName) {
     EXPECT_THAT(refused("aside.json"), HasSubstr("expected the scene's camera of frame 1, found one that stands"));
     scene("zoom.json", kSeen, "[192, 144]", R"("position": [0, 2.6, 1.6], "vertical_fov_degrees": 58)");
     EXPECT_THAT(refused("zoom.json"), HasSubstr("found another lens"));
-    scene("thin.json", R"("collide": "depth", "depth": {"path": "bare.exr", "thickness": 0.1})");
-    EXPECT_THAT(refused("thin.json"), HasSubstr("/simulation/depth/thickness: expected 0, or a number >= 0.2"));
+    scene("thin.json", R"("collide": "depth", "depth": {"path": "bare.exr", "thickness": 0.04})");
+    EXPECT_THAT(refused("thin.json"), HasSubstr("/simulation/depth/thickness: expected 0, or a number >= 0.05"));
     scene("bodies.json", std::string(kSeen) + R"(, "bodies": [{"shape": "sphere", "centre": [0, 1.5, 0],
         "half": [0.1, 0.1, 0.1], "turn_degrees": 0, "density": 1, "velocity": [0, 0, 0], "spin": [0, 0, 0],
         "path": []}])");
