@@ -205,7 +205,7 @@ std::optional<SolidContact> contactWith(const DepthField& field, const Vector& x
     }
     const double facing = std::max(-dot(normal, eye) / depth, kLeastFacing);
     const double distance = dot(normal, minus(eye, place)) * std::max(1.0, kGrazing / facing);
-    double reach = double{field.thickness};
+    auto reach = double{field.thickness};
     for (std::size_t i = 0; i < 2; ++i) {
         reach = std::max(reach, surface * 2.0 / (lens.size.at(i) * std::abs(lens.scale.at(i))));
     }
