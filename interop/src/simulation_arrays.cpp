@@ -13,8 +13,8 @@ Error cameLater(const char* what, unsigned minor, const SluiceRendererApi& api) 
             "use a newer plugin, or simulate into files"};
 }
 
-/// A function tells of 1.2; 1.3 brought none.
-bool knowsFluids(const SluiceRendererApi& api) {
+/// A function tells of 1.2; what 1.3 brought to the simulation has none.
+bool knowsNewest(const SluiceRendererApi& api) {
     return (api.abi_version & 0xffffU) >= 3;
 }
 
@@ -59,8 +59,16 @@ Status checkArrays(const SluiceStart& start) {
 
 Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& api) {
     const SluiceSimulation& s = simulation;
-    if (s.fluid_count > 0 && !knowsFluids(api)) {
-        return cameLater("simulation.fluids", 3, api);
+    const struct {
+        const char* name;
+        bool asked;
+    } newest[] = {{"simulation.fluids", s.fluid_count > 0},
+                  {"simulation.foam_life", s.foam_life != 0.0F},
+                  {"simulation.density_kernel", s.density_kernel > SLUICE_KERNEL_POLY6}};
+    for (const auto& [name, asked] : newest) {
+        if (asked && !knowsNewest(api)) {
+            return cameLater(name, 3, api);
+        }
     }
     if (api.simulation_bodies != nullptr && api.set_body != nullptr) {
         return {};
@@ -68,11 +76,11 @@ Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& 
     const struct {
         const char* name;
         bool asked;
-    } all[] = {
-        {"emitters", s.emitter_count > 0},    {"drains", s.drain_count > 0},      {"fields", s.field_count > 0},
-        {"bodies", s.body_count > 0},         {"meshes", s.mesh_count > 0},       {"tension", s.tension != 0.0F},
-        {"adhesion", s.adhesion != 0.0F},     {"overshoot", s.overshoot != 0.0F}, {"depth_scale", s.depth_scale != 0},
-        {"anisotropy", s.anisotropy != 0.0F}, {"foam_life", s.foam_life != 0.0F}};
+    } all[] = {{"emitters", s.emitter_count > 0},   {"drains", s.drain_count > 0},
+               {"fields", s.field_count > 0},       {"bodies", s.body_count > 0},
+               {"meshes", s.mesh_count > 0},        {"tension", s.tension != 0.0F},
+               {"adhesion", s.adhesion != 0.0F},    {"overshoot", s.overshoot != 0.0F},
+               {"depth_scale", s.depth_scale != 0}, {"anisotropy", s.anisotropy != 0.0F}};
     for (const auto& [name, asked] : all) {
         if (asked) {
             return cameLater(fmt::format("simulation.{}", name).c_str(), 2, api);
@@ -82,7 +90,7 @@ Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& 
 }
 
 Status checkServed(const SluiceFlow& flow, const SluiceRendererApi& api) {
-    return flow.fluid_count > 0 && !knowsFluids(api) ? Status{cameLater("flow.fluids", 3, api)} : Status{};
+    return flow.fluid_count > 0 && !knowsNewest(api) ? Status{cameLater("flow.fluids", 3, api)} : Status{};
 }
 
 }  // namespace sluice

@@ -157,6 +157,7 @@ static_assert(sizeof(SluiceSolid) == 64, "it stands in arrays");
 static_assert(offsetof(SluiceSimulation, gravity) == 36 && offsetof(SluiceSimulation, longest_step) == 72);
 static_assert(offsetof(SluiceSimulation, solids) == 88 && offsetof(SluiceSimulation, tension) == 112);
 static_assert(offsetof(SluiceSimulation, emitters) == 144 && offsetof(SluiceSimulation, mesh_indices) == 200);
+static_assert(offsetof(SluiceSimulation, density_kernel) == 236);
 static_assert(offsetof(SluiceSimulation, anisotropy) == 224 && offsetof(SluiceSimulation, depth_scale) == 240);
 static_assert(offsetof(SluiceSimulation, foam_life) == 256 && offsetof(SluiceSimulation, fluids) == 288);
 static_assert(sizeof(SluiceSimulation) == 312);

@@ -57,6 +57,8 @@ struct Tap : Block {
         simulation.adhesion = settings.adhesion = 0.05F;
         simulation.vorticity = settings.vorticity = 0.01F;
         simulation.overshoot = settings.overshoot = 0.15F;
+        simulation.density_kernel = SLUICE_KERNEL_WENDLAND;
+        settings.kernel = DensityKernel::Wendland;
         settings.sources.emitters = {{true, {0, 0.7F, -2.0F}, {0, -1, 0}, 0.2F, 0.2F, 3.0F, 0.0F, 0.0F, 0.0F}};
         settings.sources.drains = {{false, {0, -0.4F, -2.0F}, {0.5F, 0.12F, 0.5F}}};
         settings.sources.fields = {{ForceKind::Wind, {}, {1, 0, 0}, 3.0F, 0.0F}};
@@ -325,6 +327,8 @@ TEST_F(LiveSources, WhatIsOutOfItsRangeIsRefusedByName) {
     EXPECT_THAT(tap([&](Tap& t) { t.field.strength = nan; }), HasSubstr("field 0"));
     EXPECT_THAT(tap([&](Tap& t) { t.simulation.tension = nan; }), HasSubstr("tension"));
     EXPECT_THAT(tap([&](Tap& t) { t.simulation.overshoot = nan; }), HasSubstr("overshoot"));
+    EXPECT_THAT(tap([](Tap& t) { t.simulation.density_kernel = SLUICE_KERNEL_COUNT; }),
+                HasSubstr("density_kernel: 4 is no SluiceDensityKernel"));
     EXPECT_THAT(tap([](Tap& t) { t.simulation.max_particles = 0; }),
                 HasSubstr("max_particles: 0 is outside 288..4000000"));
     EXPECT_THAT(tap([](Tap& t) { t.simulation.max_particles = 4'000'001; }), HasSubstr("max_particles"));

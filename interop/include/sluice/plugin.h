@@ -484,6 +484,15 @@ typedef struct SluiceMesh {
     uint32_t reserved[6];
 } SluiceMesh;
 
+/* Since ABI 1.3. What the density of a fluid is measured with. */
+typedef enum SluiceDensityKernel {
+    SLUICE_KERNEL_DEFAULT = 0, /* poly6 */
+    SLUICE_KERNEL_POLY6 = 1,
+    SLUICE_KERNEL_SPLINE = 2,
+    SLUICE_KERNEL_WENDLAND = 3,
+    SLUICE_KERNEL_COUNT = 4
+} SluiceDensityKernel;
+
 /* Since ABI 1.3. What the particles of one of several fluids are made of; all have the same volume at rest. Stands in
  * an array, so its size is for good. */
 typedef struct SluiceFluidKind {
@@ -526,7 +535,7 @@ typedef struct SluiceSimulation {
     uint32_t mesh_corner_count, mesh_triangle_count; /* of all meshes together */
     float anisotropy;        /* greatest ratio of a particle's axes, 1 to 10; 0: particles have no shape */
     float smoothing, lonely; /* 0 to 1: how far centres go to their neighbours' mean; size without neighbours, 0: 0.5 */
-    uint32_t reserved;       /* zero */
+    uint32_t density_kernel; /* SluiceDensityKernel */
     /* What the host's depth buffer shows is solid, too: value v collides with what was captured
      * (SLUICE_FRAME_CAPTURE_DEPTH) by the frame that draws value v - depth_lag, but at least 1, and waits for it; by
      * value 1 nothing has been seen. A frame without the flag, or a value that no frame draws, leaves what was captured

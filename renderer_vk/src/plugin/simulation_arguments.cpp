@@ -66,6 +66,23 @@ Status checkCounts(const SluiceSimulation& s) {
     return {};
 }
 
+Status readKernel(std::uint32_t kernel, DensityKernel& to) {
+    switch (kernel) {
+        case SLUICE_KERNEL_DEFAULT:
+        case SLUICE_KERNEL_POLY6:
+            to = DensityKernel::Poly6;
+            return {};
+        case SLUICE_KERNEL_SPLINE:
+            to = DensityKernel::Spline;
+            return {};
+        case SLUICE_KERNEL_WENDLAND:
+            to = DensityKernel::Wendland;
+            return {};
+        default:
+            return invalid("simulation.density_kernel", fmt::format("{} is no SluiceDensityKernel", kernel));
+    }
+}
+
 /// The host's depth as a solid; nothing is seen to begin with.
 Status readDepth(const SluiceSimulation& s, LiveSetup& to) {
     if (s.depth_scale == 0) {
@@ -148,6 +165,9 @@ Result<LiveSetup> readSimulation(const SluiceSimulation* simulation) {
         to.overshoot = s.overshoot < 0.0F ? 0.0F : s.overshoot;
     }
     to.fluids = readFluids(s.fluids, s.fluid_count);
+    if (Status status = readKernel(s.density_kernel, to.kernel); !status) {
+        return status.error();
+    }
     if (Status status = readSources(s, to.sources); !status) {
         return status.error();
     }
