@@ -204,6 +204,7 @@ Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulat
     s.anisotropy = scene.simulation.anisotropy.ratio;
     s.smoothing = scene.simulation.anisotropy.smoothing;
     s.lonely = scene.simulation.anisotropy.lonely;
+    s.density_kernel = scene.simulation.kernel;
     const scene::Foam& foam = scene.simulation.foam;
     s.foam_life = foam.life;
     s.foam_air[0] = foam.air_low;

@@ -99,6 +99,9 @@ simulator::Setup simulationSetup(const scene::Scene& scene) {
     setup.high = s.high;
     setup.gravity = s.gravity;
     setup.iterations = s.iterations;
+    setup.kernel = s.kernel == SLUICE_KERNEL_SPLINE     ? simulator::Kernel::Spline
+                   : s.kernel == SLUICE_KERNEL_WENDLAND ? simulator::Kernel::Wendland
+                                                        : simulator::Kernel::Poly6;
     setup.relaxation = s.relaxation;
     setup.tensile = s.tensile;
     setup.viscosity = s.viscosity;

@@ -23,6 +23,8 @@ inline constexpr std::array<Choice, 5> kViews{{{"fluid", SLUICE_VIEW_FLUID},
                                                {"echo", SLUICE_VIEW_ECHO}}};
 
 inline constexpr std::array<Choice, 2> kCollides{{{"solids", kCollideSolids}, {"depth", kCollideDepth}}};
+inline constexpr std::array<Choice, 3> kKernels{
+    {{"poly6", SLUICE_KERNEL_POLY6}, {"spline", SLUICE_KERNEL_SPLINE}, {"wendland", SLUICE_KERNEL_WENDLAND}}};
 inline constexpr std::array<Choice, 2> kEmitterShapes{{{"disc", kEmitterDisc}, {"box", kEmitterBox}}};
 inline constexpr std::array<Choice, 2> kDrainShapes{{{"sphere", kDrainSphere}, {"box", kDrainBox}}};
 inline constexpr std::array<Choice, 3> kBodyShapes{
@@ -180,6 +182,7 @@ void visitSimulation(Visitor& v, Simulation& s) {
     v.number("frames_per_second", s.frames_per_second, Range{1.0, 1.0e4});
     v.integer("steps_per_frame", s.steps_per_frame, 1, 1000);
     v.integer("iterations", s.iterations, 1, 64);
+    v.choice("kernel", s.kernel, kKernels);
     v.number("relaxation", s.relaxation, Range{1.0e-6, 1000.0});
     v.number("tensile", s.tensile, kUnit);
     v.number("viscosity", s.viscosity, kUnit);

@@ -17,6 +17,9 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
     s.high = setup.high;
     s.gravity = setup.gravity;
     s.iterations = setup.iterations;
+    s.kernel = setup.kernel == Kernel::Spline     ? vk::DensityKernel::Spline
+               : setup.kernel == Kernel::Wendland ? vk::DensityKernel::Wendland
+                                                  : vk::DensityKernel::Poly6;
     s.relaxation = setup.relaxation;
     s.tensile = setup.tensile;
     s.viscosity = setup.viscosity;

@@ -85,11 +85,15 @@ struct Fluid {
     float density, viscosity, tension, adhesion;
 };
 
+/// What density is measured with.
+enum class Kernel : std::uint8_t { Poly6, Spline, Wendland };
+
 /// docs/simulation.md has every number; metres and seconds.
 struct Setup {
     float radius = 0.02F;
     Vec3 low{}, high{}, gravity{};
     std::uint32_t iterations = 4;
+    Kernel kernel = Kernel::Poly6;
     float relaxation = 0.0F, tensile = 0.0F, viscosity = 0.0F, vorticity = 0.0F, cfl = 0.0F, tension = 0.0F,
           adhesion = 0.0F, overshoot = 0.0F;
     std::vector<Fluid> fluids;  ///< none: water, with the viscosity, tension and adhesion above

@@ -60,7 +60,7 @@ TEST_F(Live, PicturesAreThoseOfTheSimulatedFilesForEveryNumberOfFramesInFlightAn
 /// A tap, a drain, wind, a ball that floats and a crate on a path.
 constexpr const char* kTap = R"({
     "size": [48, 27], "frames": [1, 4], "camera": {"position": [0, 1.5, 3], "target": [0, 0.5, 0]},
-    "simulation": {"radius": 0.05, "tension": 0.05, "adhesion": 0.02, "overshoot": 0.15,
+    "simulation": {"radius": 0.05, "tension": 0.05, "adhesion": 0.02, "overshoot": 0.15, "kernel": "wendland",
         "fluid": [{"low": [-0.6, 0, -0.4], "high": [0.2, 0.5, 0.4], "velocity": [0, 0, 0]}],
         "emitters": [{"shape": "disc", "centre": [-0.3, 1.5, 0], "direction": [0, -1, 0], "width": 0.4, "height": 0.4,
                       "speed": 4, "rate": 0, "start": 0, "stop": 0}],

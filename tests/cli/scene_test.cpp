@@ -46,7 +46,7 @@ TEST(SceneFile, EveryKeyIsRead) {
         "engine": {"pillars": [{"base": [1, 0, 2], "radius": 0.25, "height": 3}],
                    "basins": [{"centre": [0, 1, 0], "half_x": 1, "half_z": 2, "height": 3, "wall": 4}]},
         "simulation": {"radius": 0.05, "domain": {"low": [-2, 0, -2], "high": [2, 3, 2]}, "gravity": [0, -1, 0],
-                       "frames_per_second": 60, "steps_per_frame": 2, "iterations": 7, "viscosity": 0.5, "tension": 1.5, "adhesion": 2,
+                       "frames_per_second": 60, "steps_per_frame": 2, "iterations": 7, "kernel": "spline", "viscosity": 0.5, "tension": 1.5, "adhesion": 2,
                        "collide_with_engine": false,
                        "fluid": [{"low": [0, 0, 0], "high": [1, 1, 1], "velocity": [0, 0, 4]}],
                        "spheres": [{"centre": [1, 2, 3], "radius": 0.5}],
@@ -86,6 +86,7 @@ TEST(SceneFile, EveryKeyIsRead) {
     EXPECT_EQ(s.engine.basins[0].half_z, 2.0F);
     EXPECT_EQ(s.simulation.high, (Vec3{2, 3, 2}));
     EXPECT_EQ(s.simulation.iterations, 7U);
+    EXPECT_EQ(s.simulation.kernel, uint32_t{SLUICE_KERNEL_SPLINE});
     EXPECT_EQ(s.simulation.steps_per_frame, 2U);
     EXPECT_EQ(s.simulation.frames_per_second, 60.0F);
     EXPECT_EQ(s.simulation.viscosity, 0.5F);

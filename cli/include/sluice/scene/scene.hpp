@@ -171,6 +171,7 @@ struct Simulation {
     float frames_per_second = 30.0F;
     std::uint32_t steps_per_frame = 8;  ///< at least; fast fluid takes more; 4 let deep fluid gain energy
     std::uint32_t iterations = 4;
+    std::uint32_t kernel = SLUICE_KERNEL_POLY6;  ///< SluiceDensityKernel
     float relaxation = 0.1F, tensile = 0.0005F, viscosity = 0.02F, vorticity = 0.0F, cfl = 0.4F, overshoot = 0.17F;
     float tension = 0.0F, adhesion = 0.0F;  ///< m/s^2
     Anisotropy anisotropy;
