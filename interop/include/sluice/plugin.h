@@ -326,7 +326,7 @@ typedef struct SluiceFluid {
     uint32_t reflection;        /* 0: no environment is sampled */
     uint32_t view;              /* SluiceView */
     uint32_t ellipsoids;        /* since ABI 1.2: 1: what a simulation shaped is drawn so, see its anisotropy */
-    /* Since ABI 1.2: how much the foam of a simulation (see its foam_life) hides: a particle's diameter of it lets
+    /* Since ABI 1.3: how much the foam of a simulation (see its foam_life) hides: a particle's diameter of it lets
      * exp(-foam) of the water through; 0: it is not drawn. */
     float foam;
     uint32_t reserved[6]; /* zero */
@@ -535,7 +535,7 @@ typedef struct SluiceSimulation {
     uint32_t mesh_corner_count, mesh_triangle_count; /* of all meshes together */
     float anisotropy;        /* greatest ratio of a particle's axes, 1 to 10; 0: particles have no shape */
     float smoothing, lonely; /* 0 to 1: how far centres go to their neighbours' mean; size without neighbours, 0: 0.5 */
-    uint32_t density_kernel; /* SluiceDensityKernel */
+    uint32_t density_kernel; /* since ABI 1.3: SluiceDensityKernel */
     /* What the host's depth buffer shows is solid, too: value v collides with what was captured
      * (SLUICE_FRAME_CAPTURE_DEPTH) by the frame that draws value v - depth_lag, but at least 1, and waits for it; by
      * value 1 nothing has been seen. A frame without the flag, or a value that no frame draws, leaves what was captured
@@ -544,15 +544,15 @@ typedef struct SluiceSimulation {
     uint32_t depth_lag; /* 1..frames_in_flight; 0: frames_in_flight, with which the simulation runs beside the frames */
     float depth_thickness;   /* metres behind what is seen that are solid; 0: a radius */
     uint32_t depth_reserved; /* zero */
-    /* Where the water turns white (Ihmsen et al. 2012), for frames with SluiceFluid::foam. Each pair: from where a
-     * potential counts, and from where it is 1; 0, 0: the default. */
-    float foam_life;        /* seconds after which half of a particle's foam is left; 0: there is none */
-    float foam_air[2];      /* trapped air, m/s summed over neighbours; 5, 20 */
-    float foam_crest[2];    /* curvature of a breaking crest, summed over neighbours; 2, 8 */
-    float foam_energy[2];   /* half the square of the speed, m^2/s^2; 5, 50 */
-    uint32_t foam_reserved; /* zero */
 
     /* ABI 1.2 ends here. */
+    /* Where the water turns white (Ihmsen et al. 2012), for frames with SluiceFluid::foam. Each pair: from where a
+     * potential counts, and from where it is 1; 0, 0: the default. */
+    float foam_life;                 /* seconds after which half of a particle's foam is left; 0: there is none */
+    float foam_air[2];               /* trapped air, m/s summed over neighbours; 5, 20 */
+    float foam_crest[2];             /* curvature of a breaking crest, summed over neighbours; 2, 8 */
+    float foam_energy[2];            /* half the square of the speed, m^2/s^2; 5, 50 */
+    uint32_t foam_reserved;          /* zero */
     const SluiceFluidKind* fluids;   /* none: one of density 1, with the viscosity, tension and adhesion above */
     const uint32_t* particle_fluids; /* for each particle, its place in `fluids`; none: all are of the first */
     uint32_t fluid_count;            /* 0 to SLUICE_MAX_FLUIDS */
@@ -597,7 +597,7 @@ typedef struct SluiceBodyTarget {
     float turn[4]; /* quaternion x, y, z, w of any length but 0 */
 } SluiceBodyTarget;
 
-/* Since ABI 1.2. A fluid as it is to begin anew; arrays as in SluiceSimulation. */
+/* Since ABI 1.3. A fluid as it is to begin anew; arrays as in SluiceSimulation. */
 typedef struct SluiceStart {
     uint32_t struct_size;
     uint32_t particle_count; /* at most what set_simulation made room for (max_particles); 0 only with emitters */
