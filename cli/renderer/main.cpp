@@ -49,8 +49,8 @@ int main(int argc, char** argv) {
     if (argc != 4 || (!detached && std::strcmp(argv[1], "--parent") != 0)) {
         return fail("usage", "a host starts this program, as sluice render --isolate does");
     }
-    // What a terminal, timeout(1) or a service manager sends goes to the whole group of processes. The host takes it, or
-    // ignores it, finishes its file and then closes the channel; this process ends with it either way.
+    // What a terminal, timeout(1) or a service manager sends goes to the whole group of processes. The host takes it,
+    // or ignores it, finishes its file and then closes the channel; this process ends with it either way.
     for (const int signal : {SIGINT, SIGTERM, SIGHUP, SIGQUIT}) {
         (void)std::signal(signal, SIG_IGN);
     }
