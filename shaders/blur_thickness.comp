@@ -5,6 +5,7 @@
 // One direction of the Gaussian blur of thickness: x (ALONG = 0) writes weighted sums and weights, y (1) their quotient.
 // Inputs:  ALONG = 0: thickness in metres; 1: the sums of the x direction. The fluid's depth, for the kernel's width.
 // Outputs: ALONG = 0: sum of weight * thickness, sum of weights; 1: metres.
+// With several looks the optical depth beside it, channel by channel with the same weights; else that is a placeholder.
 // Only texels with fluid count (normalised convolution, Knutsson & Westin 1993). A zero means "outside the outline" or
 // "hidden by the scene", and neither says anything about the thickness beside it: counting them would thin and so brighten
 // every outline and every edge of a pillar. The thinning that is real is already in the chords. A texel beside the outline
@@ -15,10 +16,13 @@
 
 layout(local_size_x = 16, local_size_y = 16) in;
 layout(constant_id = 0) const uint ALONG = 0u;
+layout(constant_id = 1) const uint SEVERAL = 0u;
 
 layout(set = 0, binding = 2) uniform texture2D thickness_in;
 layout(set = 0, binding = 3) uniform texture2D depth_in;
 layout(set = 0, binding = 4) writeonly uniform image2D thickness_out;
+layout(set = 0, binding = 5) uniform texture2D optical_in;
+layout(set = 0, binding = 6) writeonly uniform image2D optical_out;
 
 const float CAP = 24.0;  // texels; beyond it a near camera would pay for detail that it cannot see
 
@@ -49,10 +53,14 @@ void main() {
     const float falloff = -0.5 / (sigma * sigma);
     float sum = 0.0;
     float weights = 0.0;
+    vec3 optical = vec3(0.0);
     const int limit = ALONG == 0u ? size.x : size.y;
     const int here = ALONG == 0u ? texel.x : texel.y;
     for (int k = max(-reach, -here); k <= min(reach, limit - 1 - here); ++k) {
         const float weight = exp(falloff * float(k * k));
+        if (SEVERAL != 0u) {
+            optical += weight * texelFetch(optical_in, texel + (ALONG == 0u ? ivec2(k, 0) : ivec2(0, k)), 0).rgb;
+        }
         if (ALONG == 0u) {
             const float thickness = texelFetch(thickness_in, texel + ivec2(k, 0), 0).r;
             sum += weight * thickness;
@@ -67,5 +75,9 @@ void main() {
         imageStore(thickness_out, texel, vec4(sum, weights, 0.0, 0.0));
     } else {
         imageStore(thickness_out, texel, vec4(weights > 0.0 ? sum / weights : 0.0));
+    }
+    if (SEVERAL != 0u) {
+        const float whole = ALONG == 0u ? 1.0 : weights;
+        imageStore(optical_out, texel, vec4(whole > 0.0 ? optical / whole : vec3(0.0), 0.0));
     }
 }

@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 #extension GL_EXT_samplerless_texture_functions : require
 // The fluid's colour, coverage and window depth, and what else the host reads.
-// Inputs:  filtered depth, normals, thickness (metres, reduced resolution), HOST_COLOUR (sRGB-encoded), HOST_DEPTH, the
+// Inputs:  filtered depth, normals, thickness (metres, reduced resolution) and, of several looks, optical depth, HOST_COLOUR (sRGB-encoded), HOST_DEPTH, the
 //          environment map or the procedural sky. Eye space; light is linear until the last line.
 // Outputs: FLUID_COLOUR (sRGB-encoded, not premultiplied, alpha = coverage), FLUID_DEPTH (window depth, 1 = no fluid),
 //          FLUID_NORMAL, FLUID_THICKNESS. An output that the host does not read is a placeholder and not written.
@@ -25,6 +25,7 @@ layout(constant_id = 4) const uint REFLECTION = 1u;     // 0 none, 1 procedural 
 layout(constant_id = 5) const uint WRITE_NORMAL = 0u;
 layout(constant_id = 6) const uint WRITE_THICKNESS = 0u;
 layout(constant_id = 7) const uint FOAM = 0u;
+layout(constant_id = 8) const uint SEVERAL = 0u;        // looks: what is absorbed is in optical_in
 
 layout(set = 0, binding = 2) uniform texture2D depth_in;
 layout(set = 0, binding = 3) uniform texture2D host_depth;
@@ -37,6 +38,7 @@ layout(set = 0, binding = 9) writeonly uniform image2D fluid_depth;
 layout(set = 0, binding = 10) writeonly uniform image2D fluid_normal;
 layout(set = 0, binding = 11) writeonly uniform image2D fluid_thickness;
 layout(set = 0, binding = 12) uniform texture2D foam_in;
+layout(set = 0, binding = 13) uniform texture2D optical_in;
 
 const float FOAM_ALBEDO = 0.85;
 // Irradiance over pi by a sun of radiance 1: that of the default sun (60) lights white to 0.8, twice as much as its sky.
@@ -45,23 +47,28 @@ const uint VIEW_FLUID = 0u, VIEW_DEPTH = 1u, VIEW_NORMAL = 2u, VIEW_THICKNESS = 
 
 ivec2 onScreen(ivec2 texel) { return clamp(texel, ivec2(0), ivec2(frame.size.xy) - 1); }
 
-// Metres of fluid along the ray through a texel of the full resolution: bilinear over the texels that have any, so that
-// the outline is not thinned by the nothing beside it.
-float thicknessAt(ivec2 texel) {
+// Metres of fluid along the ray through a texel of the full resolution, in w: bilinear over the texels that have any, so that
+// the outline is not thinned by the nothing beside it. Of several looks their optical depth likewise, in xyz.
+vec4 fluidAt(ivec2 texel) {
     const ivec2 size = textureSize(thickness_in, 0);
     const vec2 at = (vec2(texel) + 0.5) / frame.thickness.x - 0.5;
     const ivec2 low = ivec2(floor(at));
     const vec2 f = at - vec2(low);
     float sum = 0.0;
     float weights = 0.0;
+    vec3 optical = vec3(0.0);
     for (int corner = 0; corner < 4; ++corner) {
         const ivec2 offset = ivec2(corner & 1, corner >> 1);
-        const float value = texelFetch(thickness_in, clamp(low + offset, ivec2(0), size - 1), 0).r;
+        const ivec2 from = clamp(low + offset, ivec2(0), size - 1);
+        const float value = texelFetch(thickness_in, from, 0).r;
         const vec2 w = mix(1.0 - f, f, vec2(offset));
         sum += w.x * w.y * value;
         weights += value > 0.0 ? w.x * w.y : 0.0;
+        if (SEVERAL != 0u) {
+            optical += w.x * w.y * texelFetch(optical_in, from, 0).rgb;
+        }
     }
-    return weights > 0.0 ? sum / weights : 0.0;
+    return weights > 0.0 ? vec4(optical, sum) / weights : vec4(0.0);
 }
 
 // Metres of foam along the ray through a texel of the full resolution: bilinear, and where there is none it is none.
@@ -142,8 +149,9 @@ float schlick(float f0, float cosine) {
     return f0 + (1.0 - f0) * k * k * k * k * k;
 }
 
-// Linear colour and opacity of the fluid in front of whatever is behind it. `path` is metres of fluid along the ray.
-vec4 shadeFluid(ivec2 texel, vec3 ray, float depth, vec3 normal, float path) {
+// Linear colour and opacity of the fluid in front of whatever is behind it. `path` is metres of fluid along the ray,
+// `absorbed` their optical depth.
+vec4 shadeFluid(ivec2 texel, vec3 ray, float depth, vec3 normal, float path, vec3 absorbed) {
     const float ior = frame.absorption.w;
     const vec3 to_eye = -normalize(ray);
     const float f0 = ((ior - 1.0) / (ior + 1.0)) * ((ior - 1.0) / (ior + 1.0));
@@ -163,7 +171,7 @@ vec4 shadeFluid(ivec2 texel, vec3 ray, float depth, vec3 normal, float path) {
                            : 0.0;
     const vec3 surface = fresnel * mirrored + lobe * frame.sun_radiance.rgb;
 
-    const vec3 transmitted = exp(-frame.absorption.rgb * path);
+    const vec3 transmitted = exp(-absorbed);
     const vec3 scattered = (1.0 - fresnel) * frame.scatter.rgb * (1.0 - transmitted);
     if (REFRACTION == 0u) {
         // The host's blend supplies the background, so that the opacity stands for what it cannot: one number for the
@@ -201,13 +209,17 @@ void main() {
         normal = normalize(texelFetch(normal_in, texel, 0).xyz);
     }
     float path = 0.0;
+    vec3 absorbed = vec3(0.0);
     if (HAS_THICKNESS != 0u) {
-        path = min(thicknessAt(texel), to_scene);
+        const vec4 fluid = fluidAt(texel);
+        path = min(fluid.w, to_scene);
+        // What lies behind the scene absorbs nothing: as much of each as of their metres.
+        absorbed = SEVERAL == 0u ? frame.absorption.rgb * path : fluid.w > 0.0 ? fluid.xyz * (path / fluid.w) : vec3(0.0);
     }
 
     vec4 colour = vec4(0.0, 0.0, 0.0, 1.0);
     if (VIEW == VIEW_FLUID) {
-        vec4 shaded = shadeFluid(texel, ray, depth, normal, path);
+        vec4 shaded = shadeFluid(texel, ray, depth, normal, path, absorbed);
         if (FOAM != 0u) {
             const float cover = foamCover(texel);
             const float alpha = mix(shaded.a, 1.0, cover);

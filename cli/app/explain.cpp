@@ -8,6 +8,7 @@
 
 #include "app/commands.hpp"
 #include "app/log.hpp"
+#include "app/looks.hpp"
 #include "app/needs.hpp"
 #include "app/plugin_path.hpp"
 #include "app/render_inputs.hpp"
@@ -28,9 +29,14 @@ Json lineJson(const std::string& line) {
     return {{"pass", line.substr(2, name_end - 2)}, {"kept", line[0] == '+'}, {"reason", line.substr(reason)}};
 }
 
-Result<std::uint32_t> particlesOfFirstFrame(const RenderInputs& inputs) {
+struct FirstFrame {
+    std::uint32_t particles = 0;
+    bool mixed = false;  ///< of several fluids, and each says which
+};
+
+Result<FirstFrame> firstFrame(const RenderInputs& inputs) {
     if (inputs.live) {
-        return inputs.live->settings.max_particles;
+        return FirstFrame{inputs.live->settings.max_particles, true};
     }
     const scene::ParticleSource& source = inputs.scene.particles;
     const Result<std::filesystem::path> path = particlePath(source, inputs.frames.first);
@@ -40,7 +46,7 @@ Result<std::uint32_t> particlesOfFirstFrame(const RenderInputs& inputs) {
         return set.error();
     }
     warnOfRadius(inputs.scene_file, source, set.value(), path.value());
-    return static_cast<std::uint32_t>(set.value().count());
+    return FirstFrame{static_cast<std::uint32_t>(set.value().count()), !fluidsOf(set.value(), inputs.scene).empty()};
 }
 
 void print(const ExplainOptions& options, const SluiceSceneNeeds& needs, const std::vector<std::string>& lines) {
@@ -80,9 +86,9 @@ int explain(const ExplainOptions& options) {
         return kExitBadInput;
     }
     const scene::Scene& scene = inputs.value().scene;
-    const Result<std::uint32_t> particles = particlesOfFirstFrame(inputs.value());
-    if (!particles) {
-        logError(particles.error());
+    const Result<FirstFrame> first = firstFrame(inputs.value());
+    if (!first) {
+        logError(first.error());
         return kExitBadInput;
     }
     const Result<host::PluginLibrary> library = loadPlugin(options.plugin);
@@ -92,7 +98,8 @@ int explain(const ExplainOptions& options) {
     }
     const std::uint32_t outputs =
         options.layers ? SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL) | SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS) : 0;
-    const SluiceSceneNeeds needs = sceneNeeds(scene, inputs.value().size, particles.value(), outputs);
+    const SluiceSceneNeeds needs =
+        sceneNeeds(scene, inputs.value().size, first.value().particles, outputs, first.value().mixed);
     std::vector<std::string> lines;
     SluiceError error{};
     error.struct_size = sizeof(error);

@@ -2,11 +2,12 @@
 #include "app/needs.hpp"
 
 #include "app/live_fluid.hpp"
+#include "app/looks.hpp"
 
 namespace sluice::cli {
 
-SluiceSceneNeeds sceneNeeds(const scene::Scene& scene, scene::Size size, std::uint32_t particles,
-                            std::uint32_t outputs) {
+SluiceSceneNeeds sceneNeeds(const scene::Scene& scene, scene::Size size, std::uint32_t particles, std::uint32_t outputs,
+                            bool mixed) {
     SluiceSceneNeeds needs{};
     needs.struct_size = sizeof(needs);
     needs.width = size.width;
@@ -14,7 +15,10 @@ SluiceSceneNeeds sceneNeeds(const scene::Scene& scene, scene::Size size, std::ui
     needs.particle_count = particles;
     needs.has_environment_map = scene.environment.empty() ? 0 : 1;
     needs.outputs = outputs;
-    needs.fluid = scene.fluid;
+    needs.fluid = firstLook(scene);
+    if (mixed || simulatesLive(scene)) {
+        needs.other_look_count = static_cast<std::uint32_t>(otherLooks(scene).size());
+    }
     if (!simulatesLive(scene) || scene.simulation.anisotropy.ratio == 0.0F) {
         needs.fluid.ellipsoids = 0;
     }

@@ -9,7 +9,8 @@
 
 namespace sluice::cli {
 
+/// `mixed`: the particles of a file say which fluid each is of; those of a simulation do.
 [[nodiscard]] SluiceSceneNeeds sceneNeeds(const scene::Scene& scene, scene::Size size, std::uint32_t particles,
-                                          std::uint32_t outputs);
+                                          std::uint32_t outputs, bool mixed);
 
 }  // namespace sluice::cli

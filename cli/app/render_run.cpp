@@ -8,11 +8,13 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "app/body_files.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
 #include "app/log.hpp"
+#include "app/looks.hpp"
 #include "app/outputs.hpp"
 #include "app/user_words.hpp"
 #include "image/exr.hpp"
@@ -65,7 +67,10 @@ Status updateParticles(Run& run, std::int64_t frame) {
     run.summary.radius = set.value().radius;
     run.particle_file = path.value();
     if (run.session.fluid) {
-        if (const Status status = run.session.fluid->setParticles(particleView(set.value())); !status) {
+        const std::vector<std::uint32_t> fluids = fluidsOf(set.value(), run.inputs.scene);
+        SluiceParticles view = particleView(set.value());
+        view.fluid = fluids.empty() ? nullptr : fluids.data();
+        if (const Status status = run.session.fluid->setParticles(view); !status) {
             noteProblem(run, status.error(), frame);
             // Particles that were refused would leave the last ones in the picture; all else is FluidHost's to mend.
             if (status.error().code == SLUICE_ERROR_INVALID_ARGUMENT) {

@@ -9,6 +9,7 @@
 #include "app/interrupt.hpp"
 #include "app/live_bodies.hpp"
 #include "app/log.hpp"
+#include "app/looks.hpp"
 #include "app/plugin_path.hpp"
 #include "sluice/abi_sizes.hpp"
 #include "sluice/format.hpp"
@@ -290,7 +291,9 @@ FrameResult renderFrame(RenderSession& session, const RenderInputs& inputs, cons
         host::FrameInput input;
         input.camera = camera;
         input.sky = inputs.scene.sky;
-        input.fluid = inputs.scene.fluid;
+        const std::vector<SluiceLook> others = otherLooks(inputs.scene);
+        input.fluid = firstLook(inputs.scene);
+        input.other_looks = others;
         input.outputs = layerOutputs(options);
         input.draw_began_ns = draw_began;
         input.simulation = inputs.live ? static_cast<std::uint64_t>(frame) : 0;

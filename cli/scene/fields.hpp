@@ -64,7 +64,7 @@ void visitSky(Visitor& v, SluiceSky& s) {
 
 template <typename Visitor>
 void visitFluid(Visitor& v, SluiceFluid& f) {
-    v.numbers("absorption", f.absorption, Range{0.0, 1.0e6});
+    v.numbers("absorption", f.absorption, kAbsorption);
     v.numbers("scatter_colour", f.scatter_colour, kLight);
     v.number("index_of_refraction", f.index_of_refraction, Range{1.0, 4.0, true});
     v.number("specular_power", f.specular_power, Range{1.0, 1.0e5});
@@ -228,6 +228,8 @@ void visitSimulation(Visitor& v, Simulation& s) {
         o.number("tension", fluid.tension, Range{0.0, 100.0});
         o.number("adhesion", fluid.adhesion, Range{0.0, 100.0});
         o.numbers("colour", fluid.colour, kUnit);
+        o.numbers("absorption", fluid.absorption, kAbsorption);
+        o.mayLack("absorption");
     });
     v.list("spheres", s.spheres, [](auto& o, SolidSphere& sphere) {
         o.numbers("centre", sphere.centre, kAnyLength);

@@ -23,6 +23,7 @@ inline constexpr Range kPositiveLength{0.0, kWorld, true};
 inline constexpr Range kLength{0.0, kWorld};
 inline constexpr Range kLight{0.0, 1.0e6};  ///< linear radiance
 inline constexpr Range kUnit{0.0, 1.0};
+inline constexpr Range kAbsorption{0.0, 1.0e6};  ///< per metre
 inline constexpr Range kDegrees{-36000.0, 36000.0};
 
 }  // namespace sluice::scene

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -225,6 +226,11 @@ Result<Scene> parseScene(std::string_view text, const std::string& name) {
     checkSimulation(reader, scene.simulation);
     if (failure) {
         return *failure;
+    }
+    for (FluidKind& fluid : scene.simulation.fluids) {
+        if (fluid.absorption[0] < 0.0F) {  // not given
+            std::copy_n(std::begin(scene.fluid.absorption), 3, fluid.absorption.begin());
+        }
     }
     return scene;
 }

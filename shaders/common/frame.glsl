@@ -4,6 +4,8 @@
 #ifndef SLUICE_FRAME_GLSL
 #define SLUICE_FRAME_GLSL
 
+const uint LOOKS = 8u;  // SLUICE_MAX_FLUIDS
+
 layout(std140, set = 0, binding = 0) uniform Frame {
     mat4 view;          // world to eye
     vec4 projection;    // ndc = projection.xy * slope - projection.zw, slope = eye.xy / depth
@@ -18,6 +20,7 @@ layout(std140, set = 0, binding = 0) uniform Frame {
     vec4 filter_widths; // delta, mu, sigma; w = cap in pixels
     vec4 thickness;     // pixels per thickness texel; sigma of the blur; chord weight; depth below which no point is wide enough
     uvec4 modes;        // x = encoding of HOST_DEPTH, y = particles, z = bits of the longest axis of a splat in splat radii, w = bits of SluiceFluid::foam
+    vec4 looks[LOOKS];  // absorption of each fluid, per metre; of frames with several looks
 } frame;
 
 // The depth of "nothing here". Every real depth is far below it.

@@ -415,8 +415,15 @@ TEST(Api, SeveralFluidsFlowAndOneChangesOrTheyAreRefusedByName) {
     sluice_flow_of(&water, &flow, sizeof(flow));
     ASSERT_EQ(flow.fluid_count, 2U);
     flow.fluids[1].viscosity = 0.5F;
+    const SluiceLook oil{{0.2F, 0.8F, 9.0F}, {}};
+    EXPECT_EQ(sluice_set_other_looks(fluid.get(), &oil, SLUICE_MAX_FLUIDS), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_NE(said().find("expected at most 7, found 8"), std::string::npos) << said();
     log.lines.clear();
     EXPECT_EQ(frame(fluid.get(), 1.0), SLUICE_OK) << sluice_last_error(fluid.get());
+    const auto alike = pixels(screen.name());
+    EXPECT_EQ(sluice_set_other_looks(fluid.get(), &oil, 1), SLUICE_OK) << said();
+    EXPECT_EQ(frame(fluid.get(), 1.0), SLUICE_OK) << sluice_last_error(fluid.get());
+    EXPECT_GT(changed(alike, pixels(screen.name()), 0, kWidth), 100);
     EXPECT_EQ(sluice_set_flow(fluid.get(), &flow), SLUICE_OK) << sluice_last_error(fluid.get());
     EXPECT_EQ(frame(fluid.get(), 1.04), SLUICE_OK) << sluice_last_error(fluid.get());
     EXPECT_EQ(frame(fluid.get(), 1.08), SLUICE_OK) << sluice_last_error(fluid.get());

@@ -96,16 +96,21 @@ TEST_F(Live, SeveralFluidsAreThoseOfTheSimulatedFilesAndTheSameInAProcessOfTheir
         "size": [48, 27], "frames": [1, 3], "camera": {"position": [0, 1.5, 3], "target": [0, 0.5, 0]},
         "simulation": {"radius": 0.05,
             "fluids": [{"density": 1, "viscosity": 0.02, "tension": 0, "adhesion": 0, "colour": [0, 0, 1]},
-                       {"density": 0.25, "viscosity": 0.2, "tension": 0.5, "adhesion": 0, "colour": [1, 1, 0]}],
+                       {"density": 0.25, "viscosity": 0.2, "tension": 0.5, "adhesion": 0, "colour": [1, 1, 0],
+                        "absorption": [0.2, 0.8, 9]}],
             "fluid": [{"low": [-0.6, 0, -0.4], "high": [0.2, 0.4, 0.4], "velocity": [0, 0, 0], "fluid": 1},
                       {"low": [-0.6, 0.4, -0.4], "high": [0.2, 0.8, 0.4], "velocity": [0, 0, 0], "fluid": 0}],
             "emitters": [{"shape": "disc", "centre": [0.6, 1.5, 0], "direction": [0, -1, 0], "width": 0.4, "height": 0.4,
                           "speed": 4, "rate": 0, "start": 0, "stop": 0, "fluid": 1}]}})");
-    ASSERT_EQ(run("simulate oil.json -o f_##.pos").code, 0);
-    const nlohmann::json files = render("oil.json --particles f_##.pos -o file_##.png --frames 3..3");
+    ASSERT_EQ(run("simulate oil.json -o f_##.ply").code, 0);
+    ASSERT_EQ(run("simulate oil.json -o f_##.pos --frames 3..3").code, 0);
+    (void)render("oil.json --particles f_##.ply -o file_##.png --frames 3..3");  // whose colours say which is which
+    (void)render("oil.json --particles f_##.pos -o first_##.png --frames 3..3");
+    EXPECT_FALSE(read("first_03.png") == read("file_03.png")) << "without colours all are the first fluid";
     EXPECT_EQ(render("oil.json -o live_##.png --validation")["validation_messages"], 0);
     (void)render("oil.json -o alone_##.png --isolate");
     EXPECT_THAT(run("render oil.json -o lost_##.png --fault device-lost@1").err, HasSubstr("it begins again"));
+    EXPECT_THAT(run("explain oil.json").out, HasSubstr("the fluids absorb light, each its own"));
     EXPECT_TRUE(read("live_03.png") == read("file_03.png"));
     EXPECT_TRUE(read("alone_03.png") == read("file_03.png"));
     EXPECT_TRUE(read("lost_03.png") == read("live_02.png")) << "a new renderer gets all of them, in frame 2";

@@ -68,7 +68,7 @@ inline std::vector<Message> sampleMessages() {
             SimulationBodies{{}, 6},
             SetBody{{}, 2, sized<SluiceBodyTarget>()},
             SetFlow{{}, sized<SluiceFlow>()},
-            ResetSimulation{{}, 1, sized<SluiceStart>()},
+            ResetSimulation{{}, 1, 1, sized<SluiceStart>()},
             Returned{{}, SLUICE_OK, 0, "", bodies}};
 }
 

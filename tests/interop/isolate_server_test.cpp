@@ -33,6 +33,7 @@ struct FakeRenderer {
     std::atomic<std::uint64_t> host_value{0}, own_value{0};
     std::uint64_t signals = 0;
     float last_colour = 0, last_solid = 0, last_velocity = 0;
+    std::uint32_t last_fluid = 0;
     double simulated = 0.0;
     std::vector<float> words;  ///< the last one of each array of a simulation
     int destroyed = 0;
@@ -64,6 +65,7 @@ SluiceRendererApi fakeApi() {
     api.set_particles = [](SluiceRenderer* /*renderer*/, const SluiceParticles* particles,
                            SluiceError* /*error*/) -> SluiceResult {
         fake.last_colour = particles->colour != nullptr ? particles->colour[3 * particles->count - 1] : -1.0F;
+        fake.last_fluid = particles->fluid != nullptr ? particles->fluid[particles->count - 1] : UINT32_MAX;
         return SLUICE_OK;
     };
     api.set_simulation = [](SluiceRenderer* /*renderer*/, const SluiceSimulation* simulation,
@@ -113,6 +115,8 @@ SluiceRendererApi fakeApi() {
                               SluiceError* /*error*/) -> SluiceResult {
         fake.last_velocity = start->velocity != nullptr ? start->velocity[3 * start->particle_count - 1] : -1.0F;
         fake.simulated = start->position != nullptr ? double{start->position[0]} : 0.0;
+        fake.last_fluid =
+            start->particle_fluids != nullptr ? start->particle_fluids[start->particle_count - 1] : UINT32_MAX;
         return SLUICE_OK;
     };
     api.submit_frame = [](SluiceRenderer* /*renderer*/, const SluiceFrame* frame,
@@ -196,10 +200,17 @@ TEST_F(IsolateServer, CarriesCallsCallbacksMemoryAndCounters) {
     EXPECT_EQ(returned().result, SLUICE_OK);
     const std::array<float, 6> two{1, 2, 3, 4, 5, 6};
     const auto bytes = std::as_bytes(std::span(two));
+    const std::array<std::uint32_t, 2> numbers{7, 3};
     const UniqueFd memory = sealedCopy({bytes, bytes}).value();
     send(SetParticles{{}, 2, 0.1F, 0, 1}, {memory.get()});
     EXPECT_EQ(returned().result, SLUICE_OK);
     EXPECT_EQ(fake.last_colour, 6.0F);
+    EXPECT_EQ(fake.last_fluid, UINT32_MAX);
+    const UniqueFd mixed = sealedCopy({bytes, bytes, std::as_bytes(std::span(numbers))}).value();
+    send(SetParticles{{}, 2, 0.1F, 0, 1, 1}, {mixed.get()});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.last_colour, 6.0F);
+    EXPECT_EQ(fake.last_fluid, 3U);
 
     ASSERT_TRUE(timeline_->publish(SLUICE_HOST_TO_RENDERER, 1));
     SubmitFrame frame;
@@ -252,12 +263,20 @@ TEST_F(IsolateServer, ASimulationCrossesWithItsArraysOrIsRefused) {
     EXPECT_EQ(fake.simulated, 3.5);
     const std::array<float, 6> others{7, 2, 3, 4, 5, 8};
     const UniqueFd start = sealedCopy({std::as_bytes(std::span(two)), std::as_bytes(std::span(others))}).value();
-    ResetSimulation reset{{}, 1, sized<SluiceStart>()};
+    ResetSimulation reset{{}, 1, 0, sized<SluiceStart>()};
     reset.start.particle_count = 2;
     send(reset, {start.get()});
     EXPECT_EQ(returned().result, SLUICE_OK);
     EXPECT_EQ(fake.simulated, 1.0);
     EXPECT_EQ(fake.last_velocity, 8.0F);
+    EXPECT_EQ(fake.last_fluid, UINT32_MAX);
+    const std::array<std::uint32_t, 2> fluids{1, 4};
+    const UniqueFd mixed = sealedCopy({std::as_bytes(std::span(two)), std::as_bytes(std::span(fluids))}).value();
+    ResetSimulation of_several{{}, 0, 1, reset.start};
+    send(of_several, {mixed.get()});
+    EXPECT_EQ(returned().result, SLUICE_OK);
+    EXPECT_EQ(fake.last_velocity, -1.0F);
+    EXPECT_EQ(fake.last_fluid, 4U);
     reset.start.particle_count = 3;
     send(reset, {start.get()});
     EXPECT_EQ(returned().result, SLUICE_ERROR_INVALID_ARGUMENT) << "the memory is shorter than that";
@@ -311,7 +330,7 @@ TEST_F(IsolateServer, EveryArrayOfASimulationComesToItsOwnPlaceAndAnOlderPluginR
     send(SimulationBodies{{}, 1});
     EXPECT_EQ(returned().result, SLUICE_ERROR_UNSUPPORTED);
     api_.reset_simulation = nullptr;
-    send(ResetSimulation{{}, 0, sized<SluiceStart>()});
+    send(ResetSimulation{{}, 0, 0, sized<SluiceStart>()});
     EXPECT_THAT(returned().message, HasSubstr("does not know reset_simulation"));
 }
 

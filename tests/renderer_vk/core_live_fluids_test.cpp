@@ -171,6 +171,81 @@ TEST_F(LiveFluids, AListOfOneOfDensityOneIsNoneAndItsFlowMayChange) {
     EXPECT_THAT(said.message, HasSubstr("fluids: expected the 0 that it began with, found 1"));
 }
 
+TEST_F(LiveFluids, AResetNamesThemAnew) {
+    Oily turned;
+    for (std::uint32_t& fluid : turned.fluid) {
+        fluid = 1 - fluid;
+    }
+    others = {{{0.1F, 2.0F, 8.0F}, {}}};
+    scatter = 0.5F;
+    ASSERT_NO_FATAL_FAILURE(start(turned));
+    const auto pictures = uploaded(turned, 3);
+    const Oily oily;
+    ASSERT_NO_FATAL_FAILURE(start(oily));
+    ASSERT_EQ(simulate(1, 0.0), SLUICE_OK);
+    EXPECT_NE(draw(1, 1), pictures.front());
+    auto to = sized<SluiceStart>();
+    to.particle_count = turned.simulation.particle_count;
+    to.position = turned.position.data();
+    to.particle_fluids = turned.fluid.data();
+    ASSERT_EQ(api().reset_simulation(renderer->get(), &to, &said), SLUICE_OK) << said.message;
+    for (std::uint64_t k = 2; k <= 4; ++k) {
+        ASSERT_EQ(simulate(k, k == 2 ? 0.0 : kFrame), SLUICE_OK);
+        EXPECT_EQ(draw(k, k), pictures[k - 2]) << "value " << k;
+    }
+    turned.fluid[3] = 2;
+    EXPECT_EQ(api().reset_simulation(renderer->get(), &to, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(said.message, HasSubstr("particle 3: expected a fluid below 2, found 2"));
+}
+
+/// Who goes leaves a gap: a number in the wrong place would be a colour in the wrong place.
+TEST_F(LiveFluids, LookEachItsOwnAsTheSolversParticlesDoWhenTheyAreGiven) {
+    Oily oily(2);
+    SluiceDrain drain{};
+    drain.shape = SLUICE_REGION_BOX;
+    drain.centre[1] = -0.25F;
+    drain.centre[2] = -2.0F;
+    drain.half[0] = 0.1F;
+    drain.half[1] = 0.15F;
+    drain.half[2] = 0.5F;
+    oily.simulation.drains = &drain;
+    oily.simulation.drain_count = 1;
+    oily.settings.sources.drains = {{false, {0, -0.25F, -2.0F}, {0.1F, 0.15F, 0.5F}}};
+    scatter = 0.5F;
+    ASSERT_NO_FATAL_FAILURE(start(oily));
+    const auto alike = uploaded(oily, 3);
+    others = {{{0.1F, 2.0F, 8.0F}, {}}};
+    ASSERT_NO_FATAL_FAILURE(start(oily));
+    const auto apart = uploaded(oily, 3);
+    EXPECT_NE(apart[0], alike[0]);
+    ASSERT_NO_FATAL_FAILURE(expectPictures(oily, apart));
+    EXPECT_NE(stats().particle_count, oily.simulation.particle_count);
+    // The same look for all is one look, whatever is said of it; so are particles of one fluid.
+    const SluiceFluid& look = frameOf(1, 2, SLUICE_VIEW_FLUID).fluid;
+    others = {{{look.absorption[0], look.absorption[1], look.absorption[2]}, {}}};
+    ASSERT_NO_FATAL_FAILURE(expectPictures(oily, alike));
+    others = {{{0.1F, 2.0F, 8.0F}, {}}};
+    ASSERT_NO_FATAL_FAILURE(start(Block()));
+    const auto one = uploaded(Block(), 1);
+    others.clear();
+    ASSERT_NO_FATAL_FAILURE(expectPictures(Block(), one));
+
+    SluiceFrame frame = frameOf(2, 2, SLUICE_VIEW_FLUID);
+    frame.other_look_count = SLUICE_MAX_FLUIDS;
+    EXPECT_EQ(renderer->submit(frame), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(renderer->error().message, HasSubstr("other_look_count: 8 is above 7"));
+    frame.other_look_count = 1;
+    frame.other_looks[0].absorption[2] = -1.0F;
+    EXPECT_EQ(renderer->submit(frame), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(renderer->error().message, HasSubstr("other_looks[0].absorption: -1 is outside"));
+    const ParticleCloud cloud(3);
+    SluiceParticles particles = cloud.particles;
+    const std::array<std::uint32_t, 3> fluids{0, 7, 8};
+    particles.fluid = fluids.data();
+    EXPECT_EQ(api().set_particles(renderer->get(), &particles, &said), SLUICE_ERROR_INVALID_ARGUMENT);
+    EXPECT_THAT(said.message, HasSubstr("particles.fluid[2]: 8 is above 7"));
+}
+
 TEST_F(LiveFluids, WhatIsWrongIsRefusedByName) {
     ASSERT_NO_FATAL_FAILURE(start(Block()));
     const auto wrong = [&](auto change) {

@@ -61,7 +61,7 @@ struct Block {
     SimulationSettings settings;
     SluiceSolid solid{};
     std::vector<float> position;
-    std::vector<float> velocity;  ///< of alone(); none: at rest
+    std::vector<float> velocity;       ///< of alone(); none: at rest
     std::vector<std::uint32_t> fluid;  ///< of each particle, where there are several
     SluiceSimulation simulation{};
     std::function<void(Solver&)> seen;  ///< of alone()
@@ -115,6 +115,9 @@ class LiveFluid : public ::testing::Test {
         SluiceFrame frame = frameOf(k, 2, SLUICE_VIEW_FLUID);
         frame.simulation = value;
         frame.flags = flags;
+        std::fill_n(&frame.fluid.scatter_colour[0], 3, scatter);
+        frame.other_look_count = static_cast<std::uint32_t>(others.size());
+        std::copy(others.begin(), others.end(), &frame.other_looks[0]);
         EXPECT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
         EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value), SLUICE_OK);
         EXPECT_EQ(api().timeline_wait(renderer->get(), k, kLong), SLUICE_OK);
@@ -124,13 +127,13 @@ class LiveFluid : public ::testing::Test {
     /// The pictures of the first values of `block` by the solver alone, given to the renderer as a host would.
     std::vector<std::vector<std::byte>> uploaded(const Block& block, std::uint64_t values) {
         std::vector<std::vector<std::byte>> pictures;
-        for (const ParticleState& state :
-             alone(block.settings, block.position, block.simulation.longest_step, values, block.seen, block.velocity,
-                   block.fluid)) {
+        for (const ParticleState& state : alone(block.settings, block.position, block.simulation.longest_step, values,
+                                                block.seen, block.velocity, block.fluid)) {
             auto particles = sized<SluiceParticles>();
             particles.count = static_cast<std::uint32_t>(state.position.size() / 3);
             particles.radius = block.simulation.radius;
             particles.position = state.position.data();
+            particles.fluid = state.fluid.empty() ? nullptr : state.fluid.data();
             EXPECT_EQ(api().set_particles(renderer->get(), &particles, nullptr), SLUICE_OK);
             pictures.push_back(draw(pictures.size() + 1, 0));
         }
@@ -182,6 +185,8 @@ class LiveFluid : public ::testing::Test {
     }
 
     std::uint32_t without_formats = 0;  ///< bits of formats that the host of start() does not have
+    std::vector<SluiceLook> others;     ///< of every frame
+    float scatter = 0.0F;               ///< likewise; the host's frame is black, so that nothing comes through
     SluiceBodies scratch = sized<SluiceBodies>();
     std::unique_ptr<FakeHost> host;
     std::unique_ptr<TestRenderer> renderer;

@@ -37,6 +37,7 @@ SluiceSceneNeeds anyNeeds() {
     needs.fluid.refraction = *rc::gen::inRange(0U, 2U);
     needs.fluid.reflection = *rc::gen::inRange(0U, 2U);
     needs.fluid.view = *rc::gen::inRange(0U, 5U);
+    needs.other_look_count = *rc::gen::element(0U, 1U, 7U);
     return needs;
 }
 
@@ -82,7 +83,7 @@ RC_GTEST_PROP(PassPlan, EveryImageIsWrittenAndReadAndEveryUsedImageIsAllocated, 
         written.insert(pass.writes.begin(), pass.writes.end());
     }
     // Sums of the blur and the reduced scene are read by the same pass that writes them.
-    read.insert({PlanImage::ThicknessSums, PlanImage::SceneDepth});
+    read.insert({PlanImage::ThicknessSums, PlanImage::OpticalSums, PlanImage::SceneDepth});
     for (const PlannedImage& image : plan.images) {
         RC_ASSERT(read.contains(image.id) && written.contains(image.id));
         RC_ASSERT(image.width > 0 && image.height > 0 && !shared(image.id));
@@ -161,6 +162,19 @@ TEST(PassPlan, AClearUnabsorbingUnrefractingFluidHasNoThickness) {
     EXPECT_EQ(findImage(plan.value(), PlanImage::Thickness), nullptr);
 }
 
+RC_GTEST_PROP(PassPlan, SeveralLooksCostOpticalDepthAndOneLookNothing, ()) {
+    SluiceSceneNeeds needs = anyNeeds();
+    RC_PRE(needs.particle_count > 0);
+    needs.other_look_count = 0;
+    const Plan one = planOf(needs);
+    needs.other_look_count = 2;
+    const Plan several = planOf(needs);
+    RC_ASSERT(findImage(one, PlanImage::OpticalDepth) == nullptr && !one.several_looks);
+    const bool shaded = needs.fluid.view == SLUICE_VIEW_FLUID;
+    RC_ASSERT((findImage(several, PlanImage::OpticalDepth) != nullptr) == shaded);
+    RC_ASSERT(shaded || several == one);
+}
+
 TEST(PassPlan, RefusesNumbersOutOfRangeAndNamesThem) {
     SluiceSceneNeeds good{};
     good.width = 64;
@@ -189,6 +203,7 @@ TEST(PassPlan, RefusesNumbersOutOfRangeAndNamesThem) {
     refused([](auto& n) { n.fluid.filter_iterations = kMaxFilterIterations + 1; }, "filter_iterations");
     refused([](auto& n) { n.fluid.filter = 7; }, "filter");
     refused([](auto& n) { n.fluid.view = 9; }, "view");
+    refused([](auto& n) { n.other_look_count = 8; }, "other_look_count");
 }
 
 }  // namespace

@@ -148,6 +148,7 @@ RigResult PassRig::render(const RigScene& scene) {
     needs.has_environment_map = scene.environment.empty() ? 0 : 1;
     needs.outputs = scene.outputs;
     needs.fluid = scene.fluid;
+    needs.other_look_count = static_cast<std::uint32_t>(scene.absorption.size());
     const std::vector<float>& splats = scene.ellipsoids.empty() ? scene.positions : scene.ellipsoids;
     if (!scene.ellipsoids.empty()) {
         needs.particle_count = static_cast<std::uint32_t>(scene.ellipsoids.size() / 9);
@@ -203,6 +204,14 @@ RigResult PassRig::render(const RigScene& scene) {
     }
     std::ranges::copy(std::as_bytes(std::span(white)), whitewater.value().mapped().begin());
 
+    auto fluids = Buffer::create(device, {std::max<std::size_t>(scene.fluids.size(), 1) * sizeof(std::uint32_t),
+                                          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT, BufferPlace::Upload, "rig fluids"});
+    if (!fluids) {
+        result.failure = fluids.error().message();
+        return result;
+    }
+    std::ranges::copy(std::as_bytes(std::span(scene.fluids)), fluids.value().mapped().begin());
+
     SluiceFrame frame{};
     frame.struct_size = sizeof frame;
     frame.frame = 1;
@@ -210,6 +219,10 @@ RigResult PassRig::render(const RigScene& scene) {
     frame.camera = scene.camera;
     frame.sky = scene.sky;
     frame.fluid = scene.fluid;
+    frame.other_look_count = needs.other_look_count;
+    for (std::size_t i = 0; i < scene.absorption.size(); ++i) {
+        std::ranges::copy(scene.absorption[i], std::begin(frame.other_looks[i].absorption));
+    }
     const bool want_normal = (scene.outputs & SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_NORMAL)) != 0;
     const bool want_thickness = (scene.outputs & SLUICE_ROLE_BIT(SLUICE_IMAGE_FLUID_THICKNESS)) != 0;
     FrameTargets targets{host_colour.ref(),
@@ -242,10 +255,11 @@ RigResult PassRig::render(const RigScene& scene) {
             fullBarrier(device, commands, image->image(), VK_IMAGE_ASPECT_COLOR_BIT, VK_IMAGE_LAYOUT_UNDEFINED,
                         VK_IMAGE_LAYOUT_GENERAL);
         }
-        recorded = recorder_->record(commands, frame, result.plan, targets,
-                                     {particles.value().buffer(), needs.particle_count, scene.radius, VK_NULL_HANDLE,
-                                      particles.value().buffer(), scene.longest, whitewater.value().buffer()},
-                                     timer, capture);
+        recorded = recorder_->record(
+            commands, frame, result.plan, targets,
+            {particles.value().buffer(), needs.particle_count, scene.radius, VK_NULL_HANDLE, particles.value().buffer(),
+             scene.longest, whitewater.value().buffer(), fluids.value().buffer()},
+            timer, capture);
         memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT,
                       VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
     });
@@ -283,6 +297,9 @@ RigResult PassRig::render(const RigScene& scene) {
     }
     if (const Image* image = recorder_->image(PlanImage::Foam)) {
         result.foam = rig.download<float>(*image);
+    }
+    if (const Image* image = recorder_->image(PlanImage::OpticalDepth)) {
+        result.optical = rig.download<std::array<float, 4>>(*image);
     }
     result.failure = rig.failure;
     return result;

@@ -40,10 +40,12 @@ inline constexpr SluiceFluid kWater{
 /// Everything that a frame depends on. Host images are rows bottom-up; colour is sRGB-encoded RGBA8.
 struct RigScene {
     std::uint32_t width = 64, height = 48;
-    std::vector<float> positions;   ///< triples
-    std::vector<float> ellipsoids;  ///< nine floats each, in place of positions; or empty
-    float longest = 1.0F;           ///< of their axes
-    std::vector<float> foam;        ///< of each particle, 0 to 1; or empty
+    std::vector<float> positions;                  ///< triples
+    std::vector<float> ellipsoids;                 ///< nine floats each, in place of positions; or empty
+    float longest = 1.0F;                          ///< of their axes
+    std::vector<std::uint32_t> fluids;             ///< of each particle; or empty
+    std::vector<std::array<float, 3>> absorption;  ///< of the fluids after the first
+    std::vector<float> foam;                       ///< of each particle, 0 to 1; or empty
     float radius = 0.05F;
     SluiceCamera camera{};
     SluiceSky sky{};
@@ -61,11 +63,12 @@ struct RigScene {
 struct RigResult {
     Plan plan;
     std::vector<std::array<float, 4>> colour, normal_out;
-    std::vector<float> depth, thickness_out;   ///< FLUID_DEPTH, FLUID_THICKNESS
-    std::vector<float> surface;                ///< metres, final depth
-    std::vector<float> depth_a;                ///< metres; the splat if there is no filter
-    std::vector<std::array<float, 4>> normal;  ///< decoded from half floats
-    std::vector<float> thickness;              ///< metres, reduced resolution
+    std::vector<float> depth, thickness_out;    ///< FLUID_DEPTH, FLUID_THICKNESS
+    std::vector<float> surface;                 ///< metres, final depth
+    std::vector<float> depth_a;                 ///< metres; the splat if there is no filter
+    std::vector<std::array<float, 4>> normal;   ///< decoded from half floats
+    std::vector<float> thickness;               ///< metres, reduced resolution
+    std::vector<std::array<float, 4>> optical;  ///< optical depth of several looks
     std::uint32_t thickness_width = 0, thickness_height = 0;
     std::vector<float> foam;                                   ///< metres, at the resolution of thickness
     std::vector<float> captured;                               ///< DepthHeader and depths

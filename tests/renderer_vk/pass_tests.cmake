@@ -11,6 +11,7 @@ sluice_add_test(renderer_vk_pass_test OPTIMISED
     pass_ellipsoid_test.cpp
     pass_filter_test.cpp
     pass_foam_test.cpp
+    pass_looks_test.cpp
     pass_shade_test.cpp
     pass_splat_test.cpp
     pass_surface_test.cpp

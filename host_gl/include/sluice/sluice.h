@@ -197,6 +197,9 @@ SLUICE_EXPORT SluiceResult sluice_bodies(Sluice* fluid, SluiceBodies* bodies);
 /* How it looks. */
 SLUICE_EXPORT void sluice_look_defaults(SluiceFluid* look);
 SLUICE_EXPORT SluiceResult sluice_set_look(Sluice* fluid, const SluiceFluid* look);
+/* Of several fluids: how those after the first look, in the order of SluiceWater::fluids; those beyond the count, at
+ * most SLUICE_MAX_FLUIDS - 1, look like the first. */
+SLUICE_EXPORT SluiceResult sluice_set_other_looks(Sluice* fluid, const SluiceLook* looks, uint32_t count);
 /* What it mirrors and what lights it: a sky, or a latitude-longitude map (NULL: the sky again). */
 SLUICE_EXPORT void sluice_sky_defaults(SluiceSky* sky);
 SLUICE_EXPORT SluiceResult sluice_set_sky(Sluice* fluid, const SluiceSky* sky);

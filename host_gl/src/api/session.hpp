@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,6 +45,7 @@ class Session {
     [[nodiscard]] Status bodies(SluiceBodies* bodies);
     [[nodiscard]] Status setEnvironment(const SluiceEnvironment* environment);
     void setLook(const SluiceFluid& look) { look_ = look; }
+    [[nodiscard]] Status setOtherLooks(std::span<const SluiceLook> looks);
     void setSky(const SluiceSky& sky) { sky_ = sky; }
     void setEnabled(bool enabled) { enabled_ = enabled; }
     [[nodiscard]] Result<SluiceStatistics> statistics();
@@ -102,6 +104,7 @@ class Session {
     bool meets_depth_ = false;     ///< the fluid collides with what the engine's depth shows
     std::uint32_t particles_ = 0;  ///< at the start
     SluiceFluid look_{};
+    std::vector<SluiceLook> other_looks_;
     SluiceSky sky_{};
     bool enabled_ = true;
 

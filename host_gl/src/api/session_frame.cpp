@@ -144,6 +144,7 @@ Status Session::draw() {
     input.camera = camera.value();
     input.sky = sky_;
     input.fluid = look_;
+    input.other_looks = other_looks_;
     input.simulation = value_;
     input.flags = meets_depth_ ? SLUICE_FRAME_CAPTURE_DEPTH : 0;
     if (Status status = host_->submit(source, input); !status) {
@@ -211,6 +212,17 @@ Status Session::setFlow(const SluiceFlow* asked) {
         }
     }
     flow_ = known;
+    return {};
+}
+
+Status Session::setOtherLooks(std::span<const SluiceLook> looks) {
+    if (looks.size() >= SLUICE_MAX_FLUIDS || (!looks.empty() && looks.data() == nullptr)) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_set_other_looks",
+                     fmt::format("expected at most {}, found {}{}", SLUICE_MAX_FLUIDS - 1, looks.size(),
+                                 looks.data() == nullptr ? " at NULL" : ""),
+                     "the first fluid's is set with sluice_set_look"};
+    }
+    other_looks_.assign(looks.begin(), looks.end());
     return {};
 }
 

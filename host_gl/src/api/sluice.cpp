@@ -200,6 +200,10 @@ SluiceResult sluice_set_look(Sluice* fluid, const SluiceFluid* look) {
     });
 }
 
+SluiceResult sluice_set_other_looks(Sluice* fluid, const SluiceLook* looks, uint32_t count) {
+    return call(fluid, [&](sluice::host::Session& session) { return session.setOtherLooks({looks, count}); });
+}
+
 void sluice_sky_defaults(SluiceSky* sky) {
     if (sky != nullptr) {
         *sky = sluice::defaultSky();

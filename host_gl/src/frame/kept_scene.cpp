@@ -12,7 +12,8 @@ namespace sluice::host {
 
 namespace {
 
-void copy(std::vector<float>& to, const float* from, std::size_t count) {
+template <typename T>
+void copy(std::vector<T>& to, const T* from, std::size_t count) {
     if (from == nullptr) {
         to.clear();
     } else {
@@ -20,7 +21,8 @@ void copy(std::vector<float>& to, const float* from, std::size_t count) {
     }
 }
 
-const float* view(const std::vector<float>& from) {
+template <typename T>
+const T* view(const std::vector<T>& from) {
     return from.empty() ? nullptr : from.data();
 }
 
@@ -34,6 +36,7 @@ void KeptScene::keep(const SluiceParticles& particles) {
     copy(position_, known.position, floats);
     copy(velocity_, known.velocity, floats);
     copy(colour_, known.colour, floats);
+    copy(fluid_, known.fluid, known.count);
     particle_facts_ = known;
     has_particles_ = true;
 }
@@ -86,6 +89,7 @@ void KeptScene::keep(const SluiceStart& start) {
     has_start_ = false;  // should memory run out half-way
     copy(start_position_, known.position, floats);
     copy(start_velocity_, known.velocity, floats);
+    copy(start_fluids_, known.particle_fluids, known.particle_count);
     has_start_ = true;
 }
 
@@ -97,6 +101,7 @@ std::optional<SluiceStart> KeptScene::start() const {
     start.particle_count = static_cast<std::uint32_t>(start_position_.size() / 3);
     start.position = view(start_position_);
     start.velocity = view(start_velocity_);
+    start.particle_fluids = view(start_fluids_);
     return start;
 }
 
@@ -110,6 +115,7 @@ std::optional<SluiceParticles> KeptScene::particles() const {
     particles.position = view(position_);
     particles.velocity = view(velocity_);
     particles.colour = view(colour_);
+    particles.fluid = view(fluid_);
     return particles;
 }
 

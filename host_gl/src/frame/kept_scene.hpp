@@ -34,6 +34,7 @@ class KeptScene {
     bool has_particles_ = false;
     SluiceParticles particle_facts_{};
     std::vector<float> position_, velocity_, colour_;
+    std::vector<std::uint32_t> fluid_;
     SluiceEnvironment environment_facts_{};
     std::vector<float> pixels_;
     SluiceSimulation simulation_facts_{};
@@ -41,6 +42,7 @@ class KeptScene {
     std::vector<std::vector<std::byte>> arrays_;  ///< in the order of eachArray
     bool has_start_ = false;
     std::vector<float> start_position_, start_velocity_;
+    std::vector<std::uint32_t> start_fluids_;
 };
 
 }  // namespace sluice::host

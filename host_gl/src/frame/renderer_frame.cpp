@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -139,6 +140,9 @@ Status RendererLife::callRenderer(const FrameInput& input, std::uint64_t frame) 
     call.camera = input.camera;
     call.sky = input.sky;
     call.fluid = input.fluid;
+    call.other_look_count = static_cast<std::uint32_t>(input.other_looks.size());  // the renderer checks it
+    std::copy_n(input.other_looks.begin(), std::min<std::size_t>(input.other_looks.size(), std::size(call.other_looks)),
+                std::begin(call.other_looks));
     call.simulation = input.simulation;
     const std::optional<FaultPlan>& fault = link_.config.fault;
     if (fault && fault->kind == FaultKind::SkipWait && fault->direction == SLUICE_HOST_TO_RENDERER &&

@@ -90,9 +90,11 @@ SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* parti
         if (given.count != 0 && given.position != nullptr) {
             call.has_velocity = given.velocity != nullptr ? 1 : 0;
             call.has_colour = given.colour != nullptr ? 1 : 0;
+            call.has_fluid = given.fluid != nullptr ? 1 : 0;
             const std::size_t floats = std::size_t{3} * given.count;
             Result<UniqueFd> copy = isolate::sealedCopy(
-                {bytesOf(given.position, floats), bytesOf(given.velocity, floats), bytesOf(given.colour, floats)});
+                {bytesOf(given.position, floats), bytesOf(given.velocity, floats), bytesOf(given.colour, floats),
+                 std::as_bytes(std::span(given.fluid, given.fluid != nullptr ? given.count : 0))});
             if (!copy) {
                 return copy.error();
             }

@@ -154,8 +154,10 @@ SluiceResult resetSimulation(SluiceRenderer* renderer, const SluiceStart* start,
             return status;
         }
         const SluiceStart given = readAbiStruct(*start);
-        isolate::ResetSimulation call{{}, given.velocity != nullptr ? 1U : 0U, given};
+        isolate::ResetSimulation call{
+            {}, given.velocity != nullptr ? 1U : 0U, given.particle_fluids != nullptr ? 1U : 0U, given};
         call.start.position = call.start.velocity = nullptr;
+        call.start.particle_fluids = nullptr;
         const std::string doing = fmt::format("reset_simulation to {} particles", given.particle_count);
         if (given.particle_count == 0) {
             return simply(*of(renderer)->process, call, doing, {});
@@ -164,6 +166,9 @@ SluiceResult resetSimulation(SluiceRenderer* renderer, const SluiceStart* start,
         std::vector<std::span<const std::byte>> parts{std::as_bytes(std::span(given.position, floats))};
         if (given.velocity != nullptr) {
             parts.push_back(std::as_bytes(std::span(given.velocity, floats)));
+        }
+        if (given.particle_fluids != nullptr) {
+            parts.push_back(std::as_bytes(std::span(given.particle_fluids, given.particle_count)));
         }
         const Result<UniqueFd> copy = isolate::sealedCopy(parts);
         if (!copy) {

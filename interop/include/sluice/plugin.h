@@ -332,6 +332,15 @@ typedef struct SluiceFluid {
     uint32_t reserved[6]; /* zero */
 } SluiceFluid;
 
+#define SLUICE_MAX_FLUIDS 8u /* since ABI 1.3, as SluiceLook and what names fluids below */
+
+/* How one of several fluids looks, where that is not as SluiceFluid says. Stands in an array, so its size is for good.
+ */
+typedef struct SluiceLook {
+    float absorption[3];  /* per metre, linear RGB: of mixed fluids their sum along the ray counts */
+    uint32_t reserved[5]; /* zero */
+} SluiceLook;
+
 /* A particle set on the CPU. Arrays are tightly packed float triples in world metres; velocity and colour may be NULL.
  */
 typedef struct SluiceParticles {
@@ -341,6 +350,7 @@ typedef struct SluiceParticles {
     const float* position;
     const float* velocity; /* metres per second */
     const float* colour;   /* linear RGB in [0,1] */
+    const uint32_t* fluid; /* since ABI 1.3: the number of its fluid, for its look; NULL: 0 */
 } SluiceParticles;
 
 /* A latitude-longitude environment map: linear RGB, rows from the zenith down, column 0 looks along -z and columns turn
@@ -359,6 +369,7 @@ typedef struct SluiceSceneNeeds {
     uint32_t has_environment_map;
     uint32_t outputs; /* SLUICE_ROLE_BIT of each FLUID_* image that the host reads; colour and depth are always made */
     SluiceFluid fluid;
+    uint32_t other_look_count; /* since ABI 1.3: as SluiceFrame has it, of particles that name fluids */
 } SluiceSceneNeeds;
 
 typedef enum SluiceFrameFlags {
@@ -382,6 +393,10 @@ typedef struct SluiceFrame {
     SluiceSky sky;
     SluiceFluid fluid;
     uint64_t simulation; /* since ABI 1.1: the value of the simulation to draw; 0: the particles of set_particles */
+    /* Since ABI 1.3: how the fluids after the first look, which looks as `fluid` says, as do those beyond the count.
+     * Where all look alike the frame costs what it costs without them. */
+    uint32_t other_look_count;
+    SluiceLook other_looks[SLUICE_MAX_FLUIDS - 1u];
 } SluiceFrame;
 
 /* ------------------------------------------------------------------------------------- simulation, since ABI 1.1 -- */
@@ -409,7 +424,6 @@ typedef struct SluiceSolid {
 #define SLUICE_MAX_DRAINS 16u
 #define SLUICE_MAX_FIELDS 16u
 #define SLUICE_MAX_BODIES 16u
-#define SLUICE_MAX_FLUIDS 8u /* since ABI 1.3 */
 
 typedef enum SluiceOpening { SLUICE_OPENING_DISC = 0, SLUICE_OPENING_RECTANGLE = 1 } SluiceOpening;
 
@@ -602,7 +616,8 @@ typedef struct SluiceStart {
     uint32_t struct_size;
     uint32_t particle_count; /* at most what set_simulation made room for (max_particles); 0 only with emitters */
     const float* position;
-    const float* velocity; /* may be NULL: at rest */
+    const float* velocity;           /* may be NULL: at rest */
+    const uint32_t* particle_fluids; /* since ABI 1.3: one for each, as in SluiceSimulation; NULL: all of the first */
 } SluiceStart;
 
 /* Since ABI 1.2. What may change while a fluid flows; all of it as in SluiceSimulation. */

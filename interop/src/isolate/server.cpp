@@ -288,7 +288,9 @@ Message Server::handle(const SetParticles& call, UniqueFd& /*with*/) {
     if (!fds_.empty()) {
         const std::size_t floats = std::size_t{3} * call.count;
         const std::size_t arrays = 1U + (call.has_velocity != 0 ? 1U : 0U) + (call.has_colour != 0 ? 1U : 0U);
-        Result<Mapping> mapped = mapSealed(fds_.front(), arrays * floats * sizeof(float));
+        const std::size_t numbers = call.has_fluid != 0 ? call.count : 0;
+        Result<Mapping> mapped =
+            mapSealed(fds_.front(), arrays * floats * sizeof(float) + numbers * sizeof(std::uint32_t));
         if (!mapped) {
             writeAbiError(&error, mapped.error());
             return said(mapped.error().code, error);
@@ -300,7 +302,10 @@ Message Server::handle(const SetParticles& call, UniqueFd& /*with*/) {
             particles.velocity = next += floats;
         }
         if (call.has_colour != 0) {
-            particles.colour = next + floats;
+            particles.colour = next += floats;
+        }
+        if (call.has_fluid != 0) {
+            particles.fluid = static_cast<const std::uint32_t*>(static_cast<const void*>(next + floats));
         }
     }
     const SluiceResult result = api_.set_particles(renderer_, &particles, &error);
@@ -342,10 +347,14 @@ Message Server::handle(const ResetSimulation& call, UniqueFd& /*with*/) {
     }
     SluiceStart start = call.start;
     start.position = start.velocity = nullptr;
+    start.particle_fluids = nullptr;
     const std::size_t floats = std::size_t{3} * start.particle_count;
     Mapping memory;
     if (!fds_.empty()) {
-        Result<Mapping> mapped = mapSealed(fds_.front(), (call.has_velocity != 0 ? 2U : 1U) * floats * sizeof(float));
+        const std::size_t triples = call.has_velocity != 0 ? 2 : 1;
+        const std::size_t numbers = call.has_fluids != 0 ? start.particle_count : 0;
+        Result<Mapping> mapped =
+            mapSealed(fds_.front(), triples * floats * sizeof(float) + numbers * sizeof(std::uint32_t));
         if (!mapped) {
             writeAbiError(&error, mapped.error());
             return said(mapped.error().code, error);
@@ -353,6 +362,10 @@ Message Server::handle(const ResetSimulation& call, UniqueFd& /*with*/) {
         memory = std::move(mapped).value();
         start.position = static_cast<const float*>(memory.at());
         start.velocity = call.has_velocity != 0 ? start.position + floats : nullptr;
+        if (call.has_fluids != 0) {
+            const void* behind = start.position + triples * floats;
+            start.particle_fluids = static_cast<const std::uint32_t*>(behind);
+        }
     }
     const SluiceResult result = api_.reset_simulation(renderer_, &start, &error);
     return said(result, error);

@@ -3,7 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstring>
+#include <span>
 #include <utility>
 
 #include "device/capabilities.hpp"
@@ -33,6 +35,30 @@ bool writesLocalMemory(const Device& device) {
     return true;
 }
 
+/// What lies on the device, and what it is copied from where the host cannot write that itself.
+struct Uploaded {
+    Buffer local, staging;
+};
+
+Result<Uploaded> upload(const Device& device, std::span<const std::byte> data, const char* name, bool direct) {
+    Result<Buffer> written =
+        Buffer::create(device, {data.size(), direct ? kUsage : VkBufferUsageFlags{VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
+                                BufferPlace::Upload, direct ? name : "particle upload"});
+    if (!written) {
+        return written.error();
+    }
+    std::memcpy(written.value().mapped().data(), data.data(), data.size());
+    if (direct) {
+        return Uploaded{std::move(written).value(), {}};
+    }
+    Result<Buffer> local =
+        Buffer::create(device, {data.size(), kUsage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::Device, name});
+    if (!local) {
+        return local.error();
+    }
+    return Uploaded{std::move(local).value(), std::move(written).value()};
+}
+
 }  // namespace
 
 Result<std::shared_ptr<ParticleSet>> createParticleSet(const Device& device, const SluiceParticles& particles) {
@@ -52,26 +78,26 @@ Result<std::shared_ptr<ParticleSet>> createParticleSet(const Device& device, con
                      fmt::format("use at most {} particles", limit / kPositionBytes)};
     }
     const bool direct = !device.switches.stage_uploads && writesLocalMemory(device);
-    Result<Buffer> upload =
-        Buffer::create(device, {bytes, direct ? kUsage : VkBufferUsageFlags{VK_BUFFER_USAGE_TRANSFER_SRC_BIT},
-                                BufferPlace::Upload, direct ? "particle positions" : "particle upload"});
-    if (!upload) {
-        return upload.error();
+    Result<Uploaded> positions =
+        upload(device, std::as_bytes(std::span(particles.position, std::size_t{3} * particles.count)),
+               "particle positions", direct);
+    if (!positions) {
+        return positions.error();
     }
-    std::memcpy(upload.value().mapped().data(), particles.position, bytes);
+    set->position = std::move(positions.value().local);
+    set->staging = std::move(positions.value().staging);
     set->upload_bytes = bytes;
-    if (direct) {
-        set->position = std::move(upload).value();
-        return set;
+    set->recorded = direct;
+    if (particles.fluid != nullptr) {
+        Result<Uploaded> numbers =
+            upload(device, std::as_bytes(std::span(particles.fluid, particles.count)), "particle fluids", direct);
+        if (!numbers) {
+            return numbers.error();
+        }
+        set->fluid = std::move(numbers.value().local);
+        set->fluid_staging = std::move(numbers.value().staging);
+        set->upload_bytes += set->fluid.size();
     }
-    Result<Buffer> local = Buffer::create(
-        device, {bytes, kUsage | VK_BUFFER_USAGE_TRANSFER_DST_BIT, BufferPlace::Device, "particle positions"});
-    if (!local) {
-        return local.error();
-    }
-    set->position = std::move(local).value();
-    set->staging = std::move(upload).value();
-    set->recorded = false;
     return set;
 }
 
@@ -81,6 +107,10 @@ void recordUpload(const Device& device, VkCommandBuffer commands, const Particle
     }
     const VkBufferCopy region{0, 0, set.position.size()};
     device.fn.vkCmdCopyBuffer(commands, set.staging.buffer(), set.position.buffer(), 1, &region);
+    if (set.fluid) {
+        const VkBufferCopy numbers{0, 0, set.fluid.size()};
+        device.fn.vkCmdCopyBuffer(commands, set.fluid_staging.buffer(), set.fluid.buffer(), 1, &numbers);
+    }
     memoryBarrier(device, commands, VK_PIPELINE_STAGE_2_COPY_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT,
                   VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT,
                   VK_ACCESS_2_SHADER_READ_BIT | VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT);

@@ -33,6 +33,7 @@ struct ParticleBuffers {
     VkBuffer ellipsoids = VK_NULL_HANDLE;  ///< kEllipsoidFloats each, of plans with ellipsoids
     float longest = 1.0F;                  ///< of their axes, in splat radii
     VkBuffer whitewater = VK_NULL_HANDLE;  ///< kWhitewaterFloats each, of plans with foam
+    VkBuffer fluids = VK_NULL_HANDLE;      ///< a number each, of plans with several looks
 };
 
 /// What the depth buffer of the frame's camera is captured into; `into` empty: it is not.

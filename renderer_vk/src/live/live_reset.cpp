@@ -16,7 +16,7 @@ Status LiveSimulation::reset(LiveStart start) {
                                  settings_.sources.emitters.empty() ? "1 to " : "at most ", most_particles_, count),
                      "set_simulation makes room for max_particles"};
     }
-    if (Status status = checkParticles(settings_, start.position, start.velocity); !status) {
+    if (Status status = checkParticles(settings_, start.position, start.velocity, start.fluid); !status) {
         return status;
     }
     start_ = std::make_unique<LiveStart>(std::move(start));
@@ -24,7 +24,7 @@ Status LiveSimulation::reset(LiveStart start) {
 }
 
 Status LiveSimulation::beginAnew(const LiveStart& start) {
-    if (Status status = solver_->setParticles(start.position, start.velocity); !status) {
+    if (Status status = solver_->setParticles(start.position, start.velocity, start.fluid); !status) {
         return status;
     }
     owed_ = 0.0;

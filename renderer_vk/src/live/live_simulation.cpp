@@ -46,6 +46,7 @@ LiveSimulation::LiveSimulation(const RendererTimeline& timeline, const Tracer& t
       most_particles_(setup.most_particles),
       shaped_(setup.anisotropy.has_value()),
       foams_(setup.foam.has_value()),
+      mixed_(setup.settings.fluids.size() > 1),
       settings_(setup.settings),
       reports_(setup.frames_in_flight + 1, startsOf(setup.settings.bodies)),
       depth_scale_(setup.depth_scale),
@@ -85,8 +86,9 @@ Status LiveSimulation::start(const LiveSetup& setup) {
     if (Status status = solver_->setParticles(setup.position, setup.velocity, setup.fluid); !status) {
         return status;
     }
-    Result<std::unique_ptr<OutputSlots>> slots = OutputSlots::create(
-        *device_, setup.frames_in_flight + 1, most_particles_, setup.settings.radius, setup.anisotropy, setup.foam);
+    Result<std::unique_ptr<OutputSlots>> slots =
+        OutputSlots::create(*device_, setup.frames_in_flight + 1, most_particles_, setup.settings.radius,
+                            setup.anisotropy, setup.foam, mixed_);
     if (!slots) {
         return slots.error();
     }

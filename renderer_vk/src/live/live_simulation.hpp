@@ -49,6 +49,7 @@ struct LiveSetup {
 /// What it begins with anew.
 struct LiveStart {
     std::vector<float> position, velocity;  ///< as LiveSetup has them
+    std::vector<std::uint32_t> fluid;       ///< likewise
 };
 
 /// Where a driven body is to be.
@@ -109,6 +110,8 @@ class LiveSimulation {
     [[nodiscard]] bool shaped() const { return shaped_; }
     /// They carry foam.
     [[nodiscard]] bool foams() const { return foams_; }
+    /// They are of several fluids.
+    [[nodiscard]] bool mixed() const { return mixed_; }
 
     /// No more values: the thread ends after the step under way, and every value that was asked for is signalled, so
     /// that no frame waits for ever. Does not wait.
@@ -155,7 +158,7 @@ class LiveSimulation {
     std::unique_ptr<Device> device_;  ///< a view, with the simulation's queue
     double longest_step_;
     std::uint32_t most_particles_;
-    bool shaped_, foams_;
+    bool shaped_, foams_, mixed_;
     SimulationSettings settings_;  ///< as they were given, but for what has become of the fluids
     BodyReports reports_;
     VkSemaphore semaphore_ = VK_NULL_HANDLE;

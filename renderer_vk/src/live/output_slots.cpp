@@ -17,11 +17,11 @@ namespace sluice::vk {
 namespace {
 
 constexpr std::uint32_t kGroup = 64;
-constexpr std::uint32_t kBindings = 7;
+constexpr std::uint32_t kBindings = 8;
 
 /// Mirrors shaders/publish.comp.
 struct Push {
-    std::uint32_t count, changing;
+    std::uint32_t count, changing, several;
 };
 
 Result<Buffer> makeFloats(const Device& device, std::uint32_t particles, std::size_t each, const char* name) {
@@ -43,7 +43,7 @@ Result<Buffer> makeFloats(const Device& device, std::uint32_t particles, std::si
 Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, std::uint32_t slots,
                                                          std::uint32_t particles, float radius,
                                                          const std::optional<Anisotropy>& anisotropy,
-                                                         const std::optional<FoamSettings>& foam) {
+                                                         const std::optional<FoamSettings>& foam, bool several_fluids) {
     if (Status status = anisotropy ? checkAnisotropy(*anisotropy) : Status{}; !status) {
         return status.error();
     }
@@ -86,8 +86,16 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
             }
             whitewater = std::move(white).value();
         }
+        Buffer fluids;
+        if (several_fluids) {
+            Result<Buffer> numbers = makeFloats(device, particles, 1, "simulated particles' fluids");
+            if (!numbers) {
+                return numbers.error();
+            }
+            fluids = std::move(numbers).value();
+        }
         made->slots_.push_back({std::move(position).value(), std::move(velocity).value(), std::move(draw).value(),
-                                std::move(ellipsoids), std::move(whitewater)});
+                                std::move(ellipsoids), std::move(whitewater), std::move(fluids)});
     }
     // A frame that is told not to wait (a fault of tests) shall read what is defined.
     const Status cleared = runOnce(device, [&](VkCommandBuffer commands) {
@@ -99,6 +107,9 @@ Result<std::unique_ptr<OutputSlots>> OutputSlots::create(const Device& device, s
                 if (*more) {
                     device.fn.vkCmdFillBuffer(commands, more->buffer(), 0, VK_WHOLE_SIZE, 0);
                 }
+            }
+            if (slot.fluids) {
+                device.fn.vkCmdFillBuffer(commands, slot.fluids.buffer(), 0, VK_WHOLE_SIZE, 0);
             }
         }
     });
@@ -188,10 +199,11 @@ Status OutputSlots::publish(const DeviceParticles& state, std::uint64_t value, c
                                                   to.position.buffer(),
                                                   to.velocity.buffer(),
                                                   state.changing ? places_->marks() : state.identity,
-                                                  state.changing ? places_->before() : state.identity};
+                                                  state.changing ? places_->before() : state.identity,
+                                                  to.fluids ? to.fluids.buffer() : state.identity};
     writeOneSet(device_, set_, buffers);
     const VkDrawIndirectCommand draw{state.living, 1, 0, 0};
-    const Push push{state.count, state.changing ? 1U : 0U};
+    const Push push{state.count, state.changing ? 1U : 0U, to.fluids ? 1U : 0U};
     return runOnce(device_,
                    [&](VkCommandBuffer commands) {
                        device_.fn.vkCmdUpdateBuffer(commands, to.draw.buffer(), 0, sizeof draw, &draw);
@@ -218,6 +230,9 @@ ParticleBuffers OutputSlots::buffers(std::uint64_t value) const {
         out.longest = longestStretch(anisotropy_->ratio);
     }
     out.whitewater = slot(value).whitewater.buffer();
+    if (slot(value).fluids) {
+        out.fluids = slot(value).fluids.buffer();
+    }
     return out;
 }
 

@@ -25,6 +25,7 @@ struct OutputSlot {
     Buffer position, velocity, draw;
     Buffer ellipsoids;  ///< kEllipsoidFloats each, if they were asked for
     Buffer whitewater;  ///< kWhitewaterFloats each, likewise; the last is the particle's foam
+    Buffer fluids;      ///< a number each, of several fluids
 };
 
 /// Foam that is asked for.
@@ -41,7 +42,7 @@ class OutputSlots {
     static Result<std::unique_ptr<OutputSlots>> create(const Device& device, std::uint32_t slots,
                                                        std::uint32_t particles, float radius,
                                                        const std::optional<Anisotropy>& anisotropy,
-                                                       const std::optional<FoamSettings>& foam);
+                                                       const std::optional<FoamSettings>& foam, bool several_fluids);
     explicit OutputSlots(const Device& device) : device_(device) {}
     OutputSlots(const OutputSlots&) = delete;
     OutputSlots& operator=(const OutputSlots&) = delete;

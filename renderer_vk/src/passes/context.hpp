@@ -48,7 +48,8 @@ struct PassContext {
 
 /// Splats draw into it.
 [[nodiscard]] constexpr bool isDrawn(PlanImage id) {
-    return id == PlanImage::DepthA || id == PlanImage::Thickness || id == PlanImage::Foam;
+    return id == PlanImage::DepthA || id == PlanImage::Thickness || id == PlanImage::OpticalDepth ||
+           id == PlanImage::Foam;
 }
 /// Before the first pass: the last frame's use of the renderer's images is over, their contents are dropped, those that
 /// are drawn into are colour attachments and the others are in GENERAL.

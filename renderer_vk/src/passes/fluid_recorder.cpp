@@ -38,8 +38,8 @@ struct FluidRecorder::State {
     std::optional<TilesPass> tiles;
     std::optional<FilterPass> filter;
     std::optional<NormalsPass> normals;
-    std::array<std::optional<SplatThicknessPass>, 2> splat_thickness;
-    std::optional<BlurThicknessPass> blur_thickness;
+    std::array<std::optional<SplatThicknessPass>, 4> splat_thickness;  ///< and those with several looks
+    std::array<std::optional<BlurThicknessPass>, 2> blur_thickness;    ///< likewise
     std::optional<SplatFoamPass> splat_foam;
     ShadePass shade;
     std::optional<EchoPass> echo;
@@ -181,12 +181,18 @@ Status FluidRecorder::prepare(const Plan& plan) {
     }
     const Device& device = state_->device;
     const std::size_t shape = plan.ellipsoids ? 1 : 0;
+    const std::size_t looks = plan.several_looks ? 1 : 0;
+    if (plan.several_looks && (device.capabilities.blendable_formats & formatBit(SLUICE_FORMAT_RGBA32F)) == 0) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "blending of RGBA32F",
+                     "this device cannot sum what several fluids absorb", "give all fluids one look"};
+    }
     for (const Status& status :
          {build(device, plan, PassId::SplatDepth, state_->splat_depth.at(shape), plan.ellipsoids),
           build(device, plan, PassId::Tiles, state_->tiles), build(device, plan, PassId::Filter, state_->filter),
           build(device, plan, PassId::Normals, state_->normals),
-          build(device, plan, PassId::SplatThickness, state_->splat_thickness.at(shape), plan.ellipsoids),
-          build(device, plan, PassId::BlurThickness, state_->blur_thickness),
+          build(device, plan, PassId::SplatThickness, state_->splat_thickness.at(shape + 2 * looks), plan.ellipsoids,
+                plan.several_looks),
+          build(device, plan, PassId::BlurThickness, state_->blur_thickness.at(looks), plan.several_looks),
           build(device, plan, PassId::SplatFoam, state_->splat_foam), build(device, plan, PassId::Echo, state_->echo),
           build(device, plan, PassId::Clear, state_->clear)}) {
         if (!status) {
@@ -272,6 +278,7 @@ Status FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame,
     arena.begin(std::as_bytes(std::span(&constants, 1)));
     const PassContext context{state_->device, commands, frame, plan, targets, particles, timer, arena, state_->images};
     const std::size_t shape = plan.ellipsoids ? 1 : 0;
+    const std::size_t looks = plan.several_looks ? 1 : 0;
     openImages(context);
     if (capture.into != VK_NULL_HANDLE) {
         if (!state_->capture_depth) {
@@ -298,10 +305,10 @@ Status FluidRecorder::record(VkCommandBuffer commands, const SluiceFrame& frame,
                 state_->normals->record(context);
                 break;
             case PassId::SplatThickness:
-                state_->splat_thickness.at(shape)->record(context);
+                state_->splat_thickness.at(shape + 2 * looks)->record(context);
                 break;
             case PassId::BlurThickness:
-                state_->blur_thickness->record(context);
+                state_->blur_thickness.at(looks)->record(context);
                 break;
             case PassId::SplatFoam:
                 state_->splat_foam->record(context);

@@ -16,6 +16,8 @@ constexpr std::array kBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_
 /// Read of a particle: its centre, and four floats of whitewater.
 constexpr std::uint64_t kBytes = (3 + 4) * sizeof(float);
 
+constexpr std::array<VkFormat, 1> kTarget{VK_FORMAT_R32_SFLOAT};
+
 }  // namespace
 
 Result<SplatFoamPass> SplatFoamPass::create(const Device& device) {
@@ -24,7 +26,7 @@ Result<SplatFoamPass> SplatFoamPass::create(const Device& device) {
                                      .vertex = splat_foam_vert,
                                      .fragment = splat_foam_frag,
                                      .bindings = kBindings,
-                                     .target = VK_FORMAT_R32_SFLOAT,
+                                     .targets = kTarget,
                                      .blend = VK_BLEND_OP_ADD},
                                     true);
     if (!pipelines) {
@@ -43,7 +45,8 @@ void SplatFoamPass::record(const PassContext& context) const {
                               sampled(context.images[PlanImage::SceneDepth].view()),
                               sampled(context.images[context.plan.surface].view()),
                               readBuffer(context.particles.whitewater)};
-    drawSplats(context, {PlanImage::Foam, 0.0F}, pipelines, bindings);
+    constexpr std::array targets{SplatTarget{PlanImage::Foam, 0.0F}};
+    drawSplats(context, targets, pipelines, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::Foam);
 }

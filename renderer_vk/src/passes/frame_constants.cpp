@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "passes/frame_constants.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <span>
 
 namespace sluice::vk {
 namespace {
@@ -66,7 +69,19 @@ FrameConstants makeFrameConstants(const SluiceFrame& frame, const Plan& plan, co
     block.modes = {static_cast<std::uint32_t>(targets.host_depth_encoding), particles.count,
                    std::bit_cast<std::uint32_t>(plan.ellipsoids ? particles.longest : 1.0F),
                    std::bit_cast<std::uint32_t>(fluid.foam)};
+    block.looks.fill(withLast(fluid.absorption));
+    for (std::size_t i = 0; i < frame.other_look_count && i + 1 < block.looks.size(); ++i) {
+        block.looks[i + 1] = withLast(frame.other_looks[i].absorption);
+    }
     return block;
+}
+
+std::uint32_t looksApart(const SluiceFrame& frame) {
+    const auto others = std::span(frame.other_looks).first(frame.other_look_count);
+    const bool apart = std::any_of(others.begin(), others.end(), [&](const SluiceLook& look) {
+        return !std::equal(std::begin(look.absorption), std::end(look.absorption), std::begin(frame.fluid.absorption));
+    });
+    return apart ? frame.other_look_count : 0;
 }
 
 float nearestPointDepth(const FrameConstants& block, float widest, float longest) {

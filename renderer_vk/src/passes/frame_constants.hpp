@@ -30,8 +30,12 @@ struct FrameConstants {
                      ///< wide enough
     std::array<std::uint32_t, 4>
         modes;  ///< SluiceDepthEncoding of HOST_DEPTH, particles, bits of the longest axis and of foam
+    std::array<Vec4, SLUICE_MAX_FLUIDS> looks;  ///< absorption of each fluid
 };
-static_assert(sizeof(FrameConstants) == 64 + 14 * 16, "std140 has no padding here");
+static_assert(sizeof(FrameConstants) == 64 + 14 * 16 + 16 * SLUICE_MAX_FLUIDS, "std140 has no padding here");
+
+/// How many of the other looks there are to tell apart: 0 where all are that of the first fluid.
+[[nodiscard]] std::uint32_t looksApart(const SluiceFrame& frame);
 
 /// The depth from which on every splat that touches the picture has a rectangle of at most `widest` pixels each way. It
 /// lies within `longest` splat radii of its centre.

@@ -141,18 +141,22 @@ Result<Pipeline> createSplat(const Device& device, const SplatDesc& desc) {
     attachment.srcColorBlendFactor = attachment.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
     attachment.srcAlphaBlendFactor = attachment.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
     attachment.colorBlendOp = attachment.alphaBlendOp = desc.blend;
-    attachment.colorWriteMask = VK_COLOR_COMPONENT_R_BIT;
+    // Alike for all targets: what differs would ask for the feature independentBlend.
+    attachment.colorWriteMask = desc.targets.size() == 1 ? VkColorComponentFlags{VK_COLOR_COMPONENT_R_BIT}
+                                                         : VK_COLOR_COMPONENT_R_BIT | VK_COLOR_COMPONENT_G_BIT |
+                                                               VK_COLOR_COMPONENT_B_BIT | VK_COLOR_COMPONENT_A_BIT;
+    const std::vector<VkPipelineColorBlendAttachmentState> attachments(desc.targets.size(), attachment);
     auto blend =
         vkStruct<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
-    blend.attachmentCount = 1;
-    blend.pAttachments = &attachment;
+    blend.attachmentCount = static_cast<std::uint32_t>(attachments.size());
+    blend.pAttachments = attachments.data();
     const std::array<VkDynamicState, 2> dynamic_states{VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR};
     auto dynamic = vkStruct<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
     dynamic.dynamicStateCount = static_cast<std::uint32_t>(dynamic_states.size());
     dynamic.pDynamicStates = dynamic_states.data();
     auto rendering = vkStruct<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
-    rendering.colorAttachmentCount = 1;
-    rendering.pColorAttachmentFormats = &desc.target;
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(desc.targets.size());
+    rendering.pColorAttachmentFormats = desc.targets.data();
 
     auto info = vkStruct<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
     info.pNext = &rendering;

@@ -48,7 +48,7 @@ struct SplatDesc {
     std::span<const std::uint32_t> vertex, fragment;
     std::span<const VkDescriptorType> bindings;
     VkPrimitiveTopology topology = VK_PRIMITIVE_TOPOLOGY_POINT_LIST;
-    VkFormat target = VK_FORMAT_UNDEFINED;
+    std::span<const VkFormat> targets;
     VkBlendOp blend = VK_BLEND_OP_ADD;           ///< of source and destination, both with factor one
     std::span<const std::uint32_t> constants{};  ///< specialisation constants 0, 1, ... of both stages
 };

@@ -24,7 +24,8 @@ ShadePass::Key ShadePass::keyOf(const Plan& plan) {
             plan.reflection ? 1U + flag(plan.environment_map) : 0U,
             flag(wanted(plan, SLUICE_IMAGE_FLUID_NORMAL)),
             flag(wanted(plan, SLUICE_IMAGE_FLUID_THICKNESS)),
-            flag(findImage(plan, PlanImage::Foam) != nullptr)};
+            flag(findImage(plan, PlanImage::Foam) != nullptr),
+            flag(plan.several_looks)};
 }
 
 Status ShadePass::prepare(const Device& device, const Plan& plan) {
@@ -46,6 +47,7 @@ Status ShadePass::prepare(const Device& device, const Plan& plan) {
                                   kStorage,
                                   kStorage,
                                   kStorage,
+                                  kSampled,
                                   kSampled};
     auto pipeline = createCompute(device, {"shade", shade_comp, bindings, 0, key});
     if (!pipeline) {
@@ -83,7 +85,8 @@ void ShadePass::record(const PassContext& context) const {
                               storage(targets.fluid_depth.view),
                               output(write_normal, targets.fluid_normal),
                               output(write_thickness, targets.fluid_thickness),
-                              sampled(images.readable(PlanImage::Foam))};
+                              sampled(images.readable(PlanImage::Foam)),
+                              sampled(images.readable(PlanImage::OpticalDepth))};
     const Image& thickness = images[PlanImage::Thickness];
     const std::uint64_t bytes_per_pixel = 4U + 4U + (images[PlanImage::Normal] ? 8U : 0U) +
                                           (context.plan.refraction ? 4U : 0U) + 8U + 4U + (write_normal ? 8U : 0U) +
@@ -91,7 +94,8 @@ void ShadePass::record(const PassContext& context) const {
     context.timer.begin(context.commands,
                         {"shade", context.pixels(),
                          context.pixels() * bytes_per_pixel +
-                             std::uint64_t{thickness.width()} * thickness.height() * (images[PlanImage::Foam] ? 8 : 4),
+                             std::uint64_t{thickness.width()} * thickness.height() *
+                                 ((images[PlanImage::Foam] ? 8U : 4U) + (context.plan.several_looks ? 16U : 0U)),
                          false, 1});
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_COMPUTE, found->second, bindings);
     dispatchTiles(context, images.surface_tiles);

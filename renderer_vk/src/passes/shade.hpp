@@ -18,7 +18,7 @@ class ShadePass {
     void record(const PassContext& context) const;
 
   private:
-    using Key = std::array<std::uint32_t, 8>;  ///< the specialisation constants of shade.comp
+    using Key = std::array<std::uint32_t, 9>;  ///< the specialisation constants of shade.comp
     static Key keyOf(const Plan& plan);
     std::map<Key, Pipeline> pipelines_;
 };

@@ -4,16 +4,21 @@
 #include <shaders/scene_depth_comp.h>
 #include <shaders/splat_depth_frag.h>
 #include <shaders/splat_ellipsoid_depth_frag.h>
+#include <shaders/splat_ellipsoid_looks_vert.h>
 #include <shaders/splat_ellipsoid_thickness_frag.h>
+#include <shaders/splat_ellipsoid_thickness_looks_frag.h>
 #include <shaders/splat_ellipsoid_vert.h>
+#include <shaders/splat_looks_vert.h>
 #include <shaders/splat_near_comp.h>
 #include <shaders/splat_thickness_frag.h>
+#include <shaders/splat_thickness_looks_frag.h>
 #include <shaders/splat_vert.h>
 
 #include <algorithm>
 #include <array>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include "device/structs.hpp"
 #include "simulation/anisotropy.hpp"
@@ -31,6 +36,24 @@ constexpr VkDeviceSize kPointsAt = sizeof(VkDrawIndirectCommand);
 constexpr std::array kDepthBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
 constexpr std::array kThicknessBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
                                         VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE};
+/// And whose fluid each particle is of.
+constexpr std::array kLooksBindings{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                    VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, VK_DESCRIPTOR_TYPE_STORAGE_BUFFER};
+
+constexpr std::array<VkFormat, 1> kMetres{VK_FORMAT_R32_SFLOAT};
+constexpr std::array<VkFormat, 2> kMetresAndOptical{VK_FORMAT_R32_SFLOAT, VK_FORMAT_R32G32B32A32_SFLOAT};
+
+struct Stages {
+    std::span<const std::uint32_t> vertex, fragment;
+};
+Stages thicknessStages(bool ellipsoids, bool several_looks) {
+    if (several_looks) {
+        return ellipsoids ? Stages{splat_ellipsoid_looks_vert, splat_ellipsoid_thickness_looks_frag}
+                          : Stages{splat_looks_vert, splat_thickness_looks_frag};
+    }
+    return ellipsoids ? Stages{splat_ellipsoid_vert, splat_ellipsoid_thickness_frag}
+                      : Stages{splat_vert, splat_thickness_frag};
+}
 
 /// What a splat is made of, and bytes of it.
 VkBuffer splatsOf(const PassContext& context) {
@@ -67,21 +90,25 @@ void findNear(const PassContext& context, const Pipeline& pipeline) {
 
 }  // namespace
 
-void drawSplats(const PassContext& context, const SplatTarget& target, const SplatPipelines& pipelines,
+void drawSplats(const PassContext& context, std::span<const SplatTarget> targets, const SplatPipelines& pipelines,
                 std::span<const Binding> bindings) {
     const Device& device = context.device;
-    const Image& image = context.images[target.id];
-    auto attachment = vkStruct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
-    attachment.imageView = image.view();
-    attachment.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
-    attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
-    attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
-    attachment.clearValue.color.float32[0] = target.clear;
+    const Image& image = context.images[targets.front().id];
+    std::vector<VkRenderingAttachmentInfo> attachments;
+    for (const SplatTarget& target : targets) {
+        auto attachment = vkStruct<VkRenderingAttachmentInfo>(VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO);
+        attachment.imageView = context.images[target.id].view();
+        attachment.imageLayout = VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
+        attachment.loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR;
+        attachment.storeOp = VK_ATTACHMENT_STORE_OP_STORE;
+        attachment.clearValue.color.float32[0] = target.clear;
+        attachments.push_back(attachment);
+    }
     auto rendering = vkStruct<VkRenderingInfo>(VK_STRUCTURE_TYPE_RENDERING_INFO);
     rendering.renderArea = {{0, 0}, {image.width(), image.height()}};
     rendering.layerCount = 1;
-    rendering.colorAttachmentCount = 1;
-    rendering.pColorAttachments = &attachment;
+    rendering.colorAttachmentCount = static_cast<std::uint32_t>(attachments.size());
+    rendering.pColorAttachments = attachments.data();
     device.fn.vkCmdBeginRendering(context.commands, &rendering);
     context.arena.bind(context.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines.points, bindings);
     const VkViewport viewport{0.0F, 0.0F, static_cast<float>(image.width()), static_cast<float>(image.height()),
@@ -119,7 +146,7 @@ Result<SplatDepthPass> SplatDepthPass::create(const Device& device, bool ellipso
          .vertex = ellipsoids ? std::span<const std::uint32_t>(splat_ellipsoid_vert) : splat_vert,
          .fragment = ellipsoids ? std::span<const std::uint32_t>(splat_ellipsoid_depth_frag) : splat_depth_frag,
          .bindings = kDepthBindings,
-         .target = VK_FORMAT_R32_SFLOAT,
+         .targets = kMetres,
          .blend = VK_BLEND_OP_MIN},
         false);
     if (!pipelines) {
@@ -141,21 +168,25 @@ void SplatDepthPass::record(const PassContext& context) const {
                         {"splat_depth", count, count * (12 + splatBytes(context)) + context.pixels() * 4, true, 3});
     findNear(context, near);
     const std::array bindings{uniform(context.arena.constants()), readBuffer(splatsOf(context))};
-    drawSplats(context, {PlanImage::DepthA, 1e30F}, pipelines, bindings);
+    constexpr std::array targets{SplatTarget{PlanImage::DepthA, 1e30F}};
+    drawSplats(context, targets, pipelines, bindings);
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::DepthA);
 }
 
-Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device, bool ellipsoids) {
-    auto pipelines = splatPipelines(
-        device,
-        {.name = "splat_thickness",
-         .vertex = ellipsoids ? std::span<const std::uint32_t>(splat_ellipsoid_vert) : splat_vert,
-         .fragment = ellipsoids ? std::span<const std::uint32_t>(splat_ellipsoid_thickness_frag) : splat_thickness_frag,
-         .bindings = kThicknessBindings,
-         .target = VK_FORMAT_R32_SFLOAT,
-         .blend = VK_BLEND_OP_ADD},
-        true);
+Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device, bool ellipsoids, bool several_looks) {
+    const Stages stages = thicknessStages(ellipsoids, several_looks);
+    SplatDesc desc{.name = "splat_thickness",
+                   .vertex = stages.vertex,
+                   .fragment = stages.fragment,
+                   .bindings = kThicknessBindings,
+                   .targets = kMetres,
+                   .blend = VK_BLEND_OP_ADD};
+    if (several_looks) {
+        desc.bindings = kLooksBindings;
+        desc.targets = kMetresAndOptical;
+    }
+    auto pipelines = splatPipelines(device, desc, true);
     if (!pipelines) {
         return pipelines.error();
     }
@@ -165,16 +196,17 @@ Result<SplatThicknessPass> SplatThicknessPass::create(const Device& device, bool
     if (!scene) {
         return scene.error();
     }
-    return SplatThicknessPass{std::move(pipelines).value(), std::move(scene).value()};
+    return SplatThicknessPass{std::move(pipelines).value(), std::move(scene).value(), several_looks};
 }
 
 void SplatThicknessPass::record(const PassContext& context) const {
     const Image& image = context.images[PlanImage::Thickness];
     const std::uint64_t count = context.particles.count;
-    context.timer.begin(context.commands, {"splat_thickness", count,
-                                           count * splatBytes(context) + context.pixels() * 4 +
-                                               std::uint64_t{image.width()} * image.height() * 12,
-                                           true, 3});
+    const std::uint64_t texels = std::uint64_t{image.width()} * image.height();
+    const std::uint64_t looks_bytes = several_looks ? count * 4 + texels * 16 : 0;
+    context.timer.begin(context.commands,
+                        {"splat_thickness", count,
+                         count * splatBytes(context) + context.pixels() * 4 + texels * 12 + looks_bytes, true, 3});
     const std::array scene_bindings{
         uniform(context.arena.constants()), readBuffer(context.images.thickness_tiles.buffer()),
         sampled(context.targets.host_depth.view), storage(context.images[PlanImage::SceneDepth].view())};
@@ -182,10 +214,16 @@ void SplatThicknessPass::record(const PassContext& context) const {
     dispatchTiles(context, context.images.thickness_tiles);
     beforeFragments(context);
     const std::array bindings{uniform(context.arena.constants()), readBuffer(splatsOf(context)),
-                              sampled(context.images[PlanImage::SceneDepth].view())};
-    drawSplats(context, {PlanImage::Thickness, 0.0F}, pipelines, bindings);
+                              sampled(context.images[PlanImage::SceneDepth].view()),
+                              readBuffer(context.particles.fluids)};
+    constexpr std::array targets{SplatTarget{PlanImage::Thickness, 0.0F}, SplatTarget{PlanImage::OpticalDepth, 0.0F}};
+    drawSplats(context, std::span(targets).first(several_looks ? 2 : 1), pipelines,
+               std::span(bindings).first(several_looks ? 4 : 3));
     context.timer.end(context.commands);
     closeAttachment(context, PlanImage::Thickness);
+    if (several_looks) {
+        closeAttachment(context, PlanImage::OpticalDepth);
+    }
 }
 
 }  // namespace sluice::vk

@@ -22,8 +22,8 @@ struct SplatTarget {
     PlanImage id;
     float clear;
 };
-/// Splats into a cleared attachment, as SplatDepthPass has found out how to draw them.
-void drawSplats(const PassContext& context, const SplatTarget& target, const SplatPipelines& pipelines,
+/// Splats into cleared attachments of one size, as SplatDepthPass has found out how to draw them.
+void drawSplats(const PassContext& context, std::span<const SplatTarget> targets, const SplatPipelines& pipelines,
                 std::span<const Binding> bindings);
 
 struct SplatDepthPass {
@@ -35,10 +35,12 @@ struct SplatDepthPass {
 };
 
 struct SplatThicknessPass {
-    static Result<SplatThicknessPass> create(const Device& device, bool ellipsoids);
+    /// `several_looks`: with the optical depth of each splat's own fluid beside its metres.
+    static Result<SplatThicknessPass> create(const Device& device, bool ellipsoids, bool several_looks);
     void record(const PassContext& context) const;
     SplatPipelines pipelines;
     Pipeline scene;  ///< the scene's depth at the resolution of thickness
+    bool several_looks;
 };
 
 }  // namespace sluice::vk

@@ -14,9 +14,11 @@ struct NormalsPass {
 };
 
 struct BlurThicknessPass {
-    static Result<BlurThicknessPass> create(const Device& device);
+    /// `several_looks`: their optical depth, too.
+    static Result<BlurThicknessPass> create(const Device& device, bool several_looks);
     void record(const PassContext& context) const;
     Pipeline along_x, along_y;
+    bool several_looks;
 };
 
 }  // namespace sluice::vk

@@ -39,6 +39,7 @@ void clearOutside(const PassContext& context) {
     clear(context, context.images[PlanImage::DepthB].image(), 1e30F);
     clear(context, context.images[PlanImage::Normal].image(), 0.0F);
     clear(context, context.images[PlanImage::ThicknessSums].image(), 0.0F);
+    clear(context, context.images[PlanImage::OpticalSums].image(), 0.0F);
     clear(context, context.images[PlanImage::SceneDepth].image(), 1e30F);
     clear(context, context.targets.fluid_colour.image, 0.0F);
     clear(context, context.targets.fluid_depth.image, 1.0F);

@@ -79,6 +79,10 @@ Status checkRanges(const SluiceSceneNeeds& needs) {
         return outOfRange("fluid.filter_max_pixels", fmt::format("{}", needs.fluid.filter_max_pixels),
                           fmt::format("0 to {}", kMaxFilterPixels));
     }
+    if (needs.other_look_count >= SLUICE_MAX_FLUIDS) {
+        return outOfRange("other_look_count", fmt::format("{}", needs.other_look_count),
+                          fmt::format("0 to {}", SLUICE_MAX_FLUIDS - 1));
+    }
     return checkNumbers(needs.fluid);
 }
 

@@ -91,6 +91,10 @@ std::string_view toString(PlanImage image) {
             return "thickness sums";
         case PlanImage::Foam:
             return "foam";
+        case PlanImage::OpticalDepth:
+            return "optical depth";
+        case PlanImage::OpticalSums:
+            return "optical sums";
         case PlanImage::SceneDepth:
             return "scene depth";
         case PlanImage::HostColour:

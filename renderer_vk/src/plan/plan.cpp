@@ -15,7 +15,7 @@ namespace {
 
 /// What the scene needs, decided once; every pass below follows from it.
 struct Wants {
-    bool filter, normals, thickness, blur, foam, host_colour, environment;
+    bool filter, normals, thickness, blur, foam, host_colour, environment, looks;
 };
 
 bool anyPositive(std::span<const float, 3> values) {
@@ -29,8 +29,9 @@ Wants wantsOf(const SluiceSceneNeeds& needs) {
     Wants wants{};
     wants.normals = shaded || fluid.view == SLUICE_VIEW_NORMAL || asked(SLUICE_IMAGE_FLUID_NORMAL);
     wants.foam = shaded && fluid.foam > 0.0F;
+    wants.looks = shaded && needs.other_look_count > 0;
     wants.thickness =
-        wants.foam || fluid.view == SLUICE_VIEW_THICKNESS || asked(SLUICE_IMAGE_FLUID_THICKNESS) ||
+        wants.looks || wants.foam || fluid.view == SLUICE_VIEW_THICKNESS || asked(SLUICE_IMAGE_FLUID_THICKNESS) ||
         (shaded && (anyPositive(fluid.absorption) || anyPositive(fluid.scatter_colour) || fluid.refraction != 0));
     wants.filter = fluid.filter == SLUICE_FILTER_NARROW_RANGE && fluid.filter_iterations > 0 &&
                    fluid.filter_sigma > 0.0F && fluid.filter_max_pixels > 0 &&
@@ -60,6 +61,9 @@ std::string thicknessReason(const SluiceSceneNeeds& needs) {
         return "the thickness view shows it";
     }
     if (fluid.view == SLUICE_VIEW_FLUID) {
+        if (needs.other_look_count > 0) {
+            return "the fluids absorb light, each its own";
+        }
         if (anyPositive(fluid.absorption)) {
             return "the fluid absorbs light";
         }
@@ -183,12 +187,25 @@ class Builder {
         const auto divisor = static_cast<std::uint32_t>(std::lround(1.0F / needs_.fluid.thickness_scale));
         image(PlanImage::Thickness, SLUICE_FORMAT_R32F, divisor);
         image(PlanImage::SceneDepth, SLUICE_FORMAT_R32F, divisor);
-        keep(PassId::SplatThickness, {PlanImage::HostDepth, PlanImage::ThicknessTiles},
-             {PlanImage::SceneDepth, PlanImage::Thickness}, 3, thicknessReason(needs_));
+        std::vector<PlanImage> splat_writes{PlanImage::SceneDepth, PlanImage::Thickness};
+        if (wants_.looks) {
+            plan_.several_looks = true;
+            image(PlanImage::OpticalDepth, SLUICE_FORMAT_RGBA32F, divisor);
+            splat_writes.push_back(PlanImage::OpticalDepth);
+        }
+        keep(PassId::SplatThickness, {PlanImage::HostDepth, PlanImage::ThicknessTiles}, std::move(splat_writes), 3,
+             thicknessReason(needs_));
         if (wants_.blur) {
             image(PlanImage::ThicknessSums, SLUICE_FORMAT_RG32F, divisor);
-            keep(PassId::BlurThickness, {PlanImage::Thickness, plan_.surface, PlanImage::ThicknessTiles},
-                 {PlanImage::ThicknessSums, PlanImage::Thickness}, 2, "removes the grain of single particles");
+            std::vector<PlanImage> reads{PlanImage::Thickness, plan_.surface, PlanImage::ThicknessTiles};
+            std::vector<PlanImage> writes{PlanImage::ThicknessSums, PlanImage::Thickness};
+            if (wants_.looks) {
+                image(PlanImage::OpticalSums, SLUICE_FORMAT_RGBA32F, divisor);
+                reads.push_back(PlanImage::OpticalDepth);
+                writes.insert(writes.end(), {PlanImage::OpticalSums, PlanImage::OpticalDepth});
+            }
+            keep(PassId::BlurThickness, std::move(reads), std::move(writes), 2,
+                 "removes the grain of single particles");
         } else {
             omit(PassId::BlurThickness, "thickness_blur is 0");
         }
@@ -215,6 +232,9 @@ class Builder {
         }
         if (wants_.foam) {
             reads.push_back(PlanImage::Foam);
+        }
+        if (wants_.looks) {
+            reads.push_back(PlanImage::OpticalDepth);
         }
         if (wants_.host_colour) {
             reads.push_back(PlanImage::HostColour);

@@ -36,6 +36,8 @@ enum class PlanImage : std::uint8_t {
     Normal,         ///< RGBA16F eye-space unit normal, w = 1 on fluid
     Thickness,      ///< R32F metres along the view ray, reduced resolution
     ThicknessSums,  ///< RG32F weighted sum and weight between the two directions of the blur
+    OpticalDepth,   ///< RGBA32F sum of absorption times metres, of several looks; a unused
+    OpticalSums,    ///< RGBA32F its weighted sum between the two directions of the blur
     SceneDepth,     ///< R32F farthest scene depth in each texel of Thickness, metres; 1e30 = nothing
     Foam,           ///< R32F metres of foam along the view ray, at the resolution of Thickness
     HostColour,
@@ -84,6 +86,7 @@ struct Plan {
     SluiceView view = SLUICE_VIEW_FLUID;
     std::uint32_t filter_iterations = 0;
     bool ellipsoids = false;  ///< splats are what their neighbours make of them, not spheres
+    bool several_looks = false;
     bool refraction = false;
     bool reflection = false;
     bool environment_map = false;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <initializer_list>
@@ -112,7 +113,19 @@ Status checkParticles(const SluiceParticles* particles) {
     if (!std::isfinite(particles->radius) || particles->radius <= 0.0F) {
         return invalid("particles.radius", fmt::format("{} is not a positive length in metres", particles->radius));
     }
-    return checkFinite({particles->position, std::size_t{3} * particles->count}, "particles.position");
+    if (Status status = checkFinite({particles->position, std::size_t{3} * particles->count}, "particles.position");
+        !status) {
+        return status;
+    }
+    const SluiceParticles known = readAbiStruct(*particles);
+    const std::span fluids(known.fluid, known.fluid != nullptr ? known.count : 0);
+    const auto unknown =
+        std::find_if(fluids.begin(), fluids.end(), [](std::uint32_t i) { return i >= SLUICE_MAX_FLUIDS; });
+    if (unknown != fluids.end()) {
+        return invalid(fmt::format("particles.fluid[{}]", unknown - fluids.begin()),
+                       fmt::format("{} is above {}", *unknown, SLUICE_MAX_FLUIDS - 1));
+    }
+    return {};
 }
 
 Status checkEnvironment(const SluiceEnvironment* environment) {
@@ -161,6 +174,19 @@ Status checkFrameValues(const SluiceFrame& frame, const FrameExpectation& expect
     }
     if (const std::uint32_t unshared = frame.outputs & ~(expected.outputs | kAlwaysMadeFluidRoles); unshared != 0) {
         return invalid("frame.outputs", fmt::format("{:#x} are roles that create was not asked to share", unshared));
+    }
+    if (frame.other_look_count >= SLUICE_MAX_FLUIDS) {
+        return invalid("frame.other_look_count",
+                       fmt::format("{} is above {}", frame.other_look_count, SLUICE_MAX_FLUIDS - 1));
+    }
+    for (std::uint32_t i = 0; i < frame.other_look_count; ++i) {
+        for (const float absorption : frame.other_looks[i].absorption) {
+            // Negated so that NaN fails as well.
+            if (!(absorption >= 0.0F && absorption <= 1e6F)) {
+                return invalid(fmt::format("frame.other_looks[{}].absorption", i),
+                               fmt::format("{} is outside [0, 1e6]", absorption));
+            }
+        }
     }
     struct Field {
         std::span<const float> values;

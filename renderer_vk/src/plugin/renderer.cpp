@@ -8,6 +8,7 @@
 
 #include "device/validation.hpp"
 #include "passes/capture_depth.hpp"
+#include "passes/frame_constants.hpp"
 #include "plugin/agree.hpp"
 #include "plugin/arguments.hpp"
 #include "sluice/format.hpp"
@@ -267,6 +268,8 @@ Status SluiceRenderer::preparePlan(const SluiceFrame& frame) {
     if (frame.simulation == 0 || !simulation_ || !simulation_->foams()) {
         needs.fluid.foam = std::min(needs.fluid.foam, 0.0F);  // nor foam; NaN is refused as ever
     }
+    const bool mixed = frame.simulation != 0 ? simulation_ && simulation_->mixed() : particles_ && particles_->fluid;
+    needs.other_look_count = mixed ? looksApart(frame) : 0;
     Result<Plan> plan = makePlan(needs);
     if (!plan) {
         return plan.error();

@@ -263,6 +263,9 @@ Result<LiveStart> readStart(const SluiceStart* start) {
     if (given.velocity != nullptr) {
         to.velocity.assign(given.velocity, given.velocity + floats);
     }
+    if (given.particle_fluids != nullptr) {
+        to.fluid.assign(given.particle_fluids, given.particle_fluids + given.particle_count);
+    }
     return to;
 }
 

@@ -207,6 +207,24 @@ std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_
     return result;
 }
 
+std::vector<Vec3> referenceOpticalDepth(const ReferenceFrame& frame, std::uint32_t width, std::uint32_t height) {
+    const RigScene& scene = frame.scene;
+    std::vector<Vec3> result(std::size_t{width} * height);
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto absorption = [&](std::size_t splat, std::uint32_t /*x*/, std::uint32_t /*y*/, double /*middle*/,
+                                    double /*ray*/) {
+            const std::uint32_t fluid = scene.fluids[splat];
+            return double{fluid == 0 || fluid > scene.absorption.size() ? scene.fluid.absorption[k]
+                                                                        : scene.absorption[fluid - 1][k]};
+        };
+        const std::vector<double> channel = referenceThickness(frame, width, height, absorption);
+        for (std::size_t i = 0; i < channel.size(); ++i) {
+            result[i][k] = channel[i];
+        }
+    }
+    return result;
+}
+
 std::vector<double> referenceFilter(const ReferenceFrame& frame, std::vector<double> depth) {
     const auto width = static_cast<int>(frame.scene.width);
     const auto height = static_cast<int>(frame.scene.height);

@@ -44,6 +44,9 @@ using ShareOfSphere =
     std::function<double(std::size_t sphere, std::uint32_t x, std::uint32_t y, double middle, double ray)>;
 [[nodiscard]] std::vector<double> referenceThickness(const ReferenceFrame& frame, std::uint32_t width,
                                                      std::uint32_t height, const ShareOfSphere& share = {});
+/// As many optical depths as texels: what the fluids of the splats absorb of each channel.
+[[nodiscard]] std::vector<Vec3> referenceOpticalDepth(const ReferenceFrame& frame, std::uint32_t width,
+                                                      std::uint32_t height);
 /// The whole filter pass, every iteration and the clean-up.
 [[nodiscard]] std::vector<double> referenceFilter(const ReferenceFrame& frame, std::vector<double> depth);
 [[nodiscard]] std::vector<Vec3> referenceNormals(const ReferenceFrame& frame, const std::vector<float>& depth);

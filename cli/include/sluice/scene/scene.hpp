@@ -67,8 +67,9 @@ struct FluidBox {
 struct FluidKind {
     float density;  ///< at rest, of water
     float viscosity;
-    float tension, adhesion;  ///< m/s^2
-    Vec3 colour;              ///< linear RGB, of its particles in files that have colours
+    float tension, adhesion;      ///< m/s^2
+    Vec3 colour;                  ///< linear RGB, of its particles in files that have colours
+    Vec3 absorption{-1, -1, -1};  ///< per metre; below 0 only until the scene has been read: as Scene::fluid has it
 };
 inline constexpr std::uint32_t kMostFluids = 8;
 struct SolidSphere {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -52,6 +53,8 @@ struct FrameInput {
     SluiceCamera camera{};
     SluiceSky sky{};
     SluiceFluid fluid{};
+    /// Of the fluids after the first, SLUICE_MAX_FLUIDS - 1 at most. Must last until submit() returns.
+    std::span<const SluiceLook> other_looks{};
     std::uint32_t outputs = 0;
     std::uint32_t flags = 0;       ///< SluiceFrameFlags
     std::uint64_t simulation = 0;  ///< the value of the simulation to draw; 0: the particles of setParticles

@@ -94,13 +94,14 @@ struct SetParticles : Carries<0, 1> {
     static constexpr std::string_view kName = "set_particles";
     std::uint32_t count = 0;
     float radius = 0.0F;
-    std::uint32_t has_velocity = 0, has_colour = 0;
+    std::uint32_t has_velocity = 0, has_colour = 0, has_fluid = 0;
     template <typename Io, typename Self>
     static void fields(Io& io, Self& m) {
         io.number(m.count);
         io.number(m.radius);
         io.number(m.has_velocity);
         io.number(m.has_colour);
+        io.number(m.has_fluid);
     }
 };
 struct SetEnvironment : Carries<0, 1> {
@@ -225,11 +226,12 @@ struct SetFlow : Carries<0, 0> {
 /// Positions, then velocities, in the memory that comes with it; none without particles.
 struct ResetSimulation : Carries<0, 1> {
     static constexpr std::string_view kName = "reset_simulation";
-    std::uint32_t has_velocity = 0;
+    std::uint32_t has_velocity = 0, has_fluids = 0;
     SluiceStart start{};  ///< its pointers say nothing here
     template <typename Io, typename Self>
     static void fields(Io& io, Self& m) {
         io.number(m.has_velocity);
+        io.number(m.has_fluids);
         io.abi(m.start);
     }
 };
