@@ -148,7 +148,7 @@ TEST_F(Misuse, WaterThatCannotBeIsNamedWithItsRemedy) {
         {"set depth_scale to 0)", [](auto& water, auto&, auto&, auto&, auto&) { water.depth_scale = 4; }},
     }};
     for (const Slip& slip : slips) {
-        SluiceBlock block{{-0.5F, 0.5F, -0.5F}, {0.5F, 1.5F, 0.5F}, {}, {}};
+        SluiceBlock block{{-0.5F, 0.5F, -0.5F}, {0.5F, 1.5F, 0.5F}, {}, 0, {}};
         SluiceEmitter tap{};
         tap.centre[1] = 1.8F;
         tap.direction[1] = -1.0F;

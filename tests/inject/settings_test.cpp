@@ -22,7 +22,7 @@ TEST(InjectSettings, EverySettingComesBackAsItWasPrinted) {
     settings.water.units_per_metre = 0.1F;
     settings.water.up = {0, 0, 1};
     settings.water.blocks = {{{1, 2, 3}, {4, 5, 6.125F}, {-0.1F, 0, 0}}};
-    settings.water.emitters.push_back({SLUICE_OPENING_DISC, {0, 1, 0}, {0, -1, 0}, 0.3F, 0.3F, 2, 0, 0, 5, {}});
+    settings.water.emitters.push_back({SLUICE_OPENING_DISC, {0, 1, 0}, {0, -1, 0}, 0.3F, 0.3F, 2, 0, 0, 5, 0, {}});
     settings.water.max_particles = 5000;
     settings.water.from_frame = 60;
     SluiceFluid look{};
