@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 namespace sluice {
 namespace {
 
@@ -91,6 +94,15 @@ Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& 
 
 Status checkServed(const SluiceFlow& flow, const SluiceRendererApi& api) {
     return flow.fluid_count > 0 && !knowsNewest(api) ? Status{cameLater("flow.fluids", 3, api)} : Status{};
+}
+
+SluiceFlow flowAfter(const std::optional<SluiceFlow>& before, const SluiceFlow& flow) {
+    SluiceFlow after = flow;
+    if (before && flow.fluid_count == 0) {
+        after.fluid_count = before->fluid_count;
+        std::copy(std::begin(before->fluids), std::end(before->fluids), std::begin(after.fluids));
+    }
+    return after;
 }
 
 }  // namespace sluice

@@ -13,6 +13,7 @@
 #include "api/water.hpp"
 #include "frame/check_info.hpp"
 #include "share/gl_errors.hpp"
+#include "sluice/simulation_arrays.hpp"
 
 namespace sluice::host {
 
@@ -211,7 +212,7 @@ Status Session::setFlow(const SluiceFlow* asked) {
             return status;
         }
     }
-    flow_ = known;
+    flow_ = flowAfter(flow_, known);
     return {};
 }
 

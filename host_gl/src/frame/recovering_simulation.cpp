@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "frame/recovering_host.hpp"
+#include "sluice/simulation_arrays.hpp"
 
 namespace sluice::host {
 
@@ -106,7 +107,7 @@ Status RecoveringHost::setFlow(const SluiceFlow& flow) {
         }
         Status status = recovery_.down() ? Status{} : judged(life_->setFlow(flow));
         if (!refused(status)) {
-            flow_ = flow;
+            flow_ = flowAfter(flow_, flow);
         }
         return status;
     });

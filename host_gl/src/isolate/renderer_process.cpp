@@ -137,7 +137,8 @@ std::uint64_t RendererProcess::limitOf(const isolate::Message& message) const {
         std::holds_alternative<isolate::Simulate>(message) ||
         std::holds_alternative<isolate::SimulationStats>(message) ||
         std::holds_alternative<isolate::SimulationBodies>(message) ||
-        std::holds_alternative<isolate::SetBody>(message) || std::holds_alternative<isolate::SetFlow>(message);
+        std::holds_alternative<isolate::SetBody>(message) || std::holds_alternative<isolate::SetFlow>(message) ||
+        std::holds_alternative<isolate::ResetSimulation>(message);
     if (of_frame) {
         return config_.frame_call_timeout_ns;
     }

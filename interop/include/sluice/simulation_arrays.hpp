@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
@@ -42,5 +43,9 @@ void eachArray(Simulation& s, bool velocities, const Each& each) {
 /// UNSUPPORTED, with what it lacks named, if the simulation asks for more than a renderer of this table knows.
 [[nodiscard]] Status checkServed(const SluiceSimulation& simulation, const SluiceRendererApi& api);
 [[nodiscard]] Status checkServed(const SluiceFlow& flow, const SluiceRendererApi& api);
+
+/// What a renderer that is made anew is to be told: `flow`, with the fluids of `before` where it names none, since
+/// those flow on as they did.
+[[nodiscard]] SluiceFlow flowAfter(const std::optional<SluiceFlow>& before, const SluiceFlow& flow);
 
 }  // namespace sluice

@@ -51,7 +51,7 @@ Status FoamAge::makeRoom(std::uint32_t identities) {
     const VkDeviceSize had = foam_.size();
     Result<Buffer> made = Buffer::create(
         device_,
-        {had > 0 ? 2 * needed : needed,
+        {std::min<VkDeviceSize>(had > 0 ? 2 * needed : needed, device_.properties.limits.maxStorageBufferRange),
          VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT,
          BufferPlace::Device, "foam by identity"});
     if (!made) {
@@ -72,6 +72,11 @@ Status FoamAge::makeRoom(std::uint32_t identities) {
 
 Status FoamAge::age(const DeviceParticles& state, VkBuffer whitewater, const PlaceBuffers& places, float kept) {
     if (state.count == 0) {
+        return {};
+    }
+    // Identities are never used twice: hours of a tap come to more than a buffer may hold, and foam lasts no longer
+    // from then on.
+    if (VkDeviceSize{state.identities} * sizeof(float) > device_.properties.limits.maxStorageBufferRange) {
         return {};
     }
     if (Status status = makeRoom(state.identities); !status) {

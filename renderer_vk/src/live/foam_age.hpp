@@ -24,7 +24,8 @@ class FoamAge {
     ~FoamAge();
 
     /// The last of the four floats that each place of `whitewater` has becomes the greater of itself and `kept` times
-    /// what it was at the call before. Returns when the device has done it.
+    /// what it was at the call before; as it is, once there have been more identities than the device's buffers hold.
+    /// Returns when the device has done it.
     [[nodiscard]] Status age(const DeviceParticles& state, VkBuffer whitewater, const PlaceBuffers& places, float kept);
     /// There has been none.
     void forget() { foam_ = {}; }

@@ -27,6 +27,7 @@ Status LiveSimulation::beginAnew(const LiveStart& start) {
     if (Status status = solver_->setParticles(start.position, start.velocity, start.fluid); !status) {
         return status;
     }
+    slots_->forgetFoam();
     owed_ = 0.0;
     targets_.clear();
     const std::lock_guard lock(mutex_);

@@ -12,6 +12,7 @@
 
 #include "device/structs.hpp"
 #include "frame/frame_ring.hpp"
+#include "sluice/blocked_signals.hpp"
 #include "sluice/trace.hpp"
 #include "sync/binary_pool.hpp"
 
@@ -94,6 +95,7 @@ Status LiveSimulation::start(const LiveSetup& setup) {
     }
     slots_ = std::move(slots).value();
     try {
+        const BlockedSignals quiet;  // in the host's process they are the host's to take
         thread_ = std::thread([this] { run(); });
     } catch (const std::system_error& why) {
         return Error{SLUICE_ERROR_OUT_OF_MEMORY, "simulation", fmt::format("no thread can be started: {}", why.what()),

@@ -169,6 +169,13 @@ Status OutputSlots::look(Solver& solver, std::uint64_t value) {
     return foam_ ? whiten(solver, value, places) : Status{};
 }
 
+void OutputSlots::forgetFoam() {
+    foam_time_ = 0.0;
+    if (foam_age_) {
+        foam_age_->forget();
+    }
+}
+
 Status OutputSlots::whiten(Solver& solver, std::uint64_t value, const PlaceBuffers& places) {
     const VkBuffer to = slot(value).whitewater.buffer();
     if (Status status = solver.whitewater(foam_->ranges, to, places); !status) {
@@ -176,9 +183,6 @@ Status OutputSlots::whiten(Solver& solver, std::uint64_t value, const PlaceBuffe
     }
     const double passed = solver.time() - foam_time_;
     foam_time_ = solver.time();
-    if (passed < 0.0) {
-        foam_age_->forget();  // it has begun anew
-    }
     return foam_age_->age(solver.onDevice(), to, places,
                           static_cast<float>(std::exp2(-std::max(passed, 0.0) / foam_->life)));
 }

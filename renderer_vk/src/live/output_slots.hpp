@@ -51,6 +51,8 @@ class OutputSlots {
     /// The shapes and the foam of the particles of `solver` into the slot of `value`, if they were asked for; returns
     /// when the device has done it. Before publish.
     [[nodiscard]] Status look(Solver& solver, std::uint64_t value);
+    /// The particles are others from now on, whatever the solver's time.
+    void forgetFoam();
     /// Copies `state` into the slot of `value`, signals, and returns when the device has done it. No work under way may
     /// use that slot.
     [[nodiscard]] Status publish(const DeviceParticles& state, std::uint64_t value,
