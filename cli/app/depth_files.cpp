@@ -89,7 +89,7 @@ Result<std::vector<std::filesystem::path>> depthFiles(const scene::Simulation& s
     }
     if (simulation.depth.path.empty()) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "/simulation/depth/path", "expected a file, found none",
-                     "render one: sluice render SCENE --no-fluid -o FILE.png --layers FILE.exr"};
+                     "render one: sluice render SCENE --no-fluid --frames 1..1 -o FILE.png --layers FILE.exr"};
     }
     for (std::int64_t frame = 1; frame == 1 || (depthMoves(simulation) && frame < last); ++frame) {
         Result<std::filesystem::path> path = particles::Sequence{simulation.depth.path}.path(frame);

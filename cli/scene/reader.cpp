@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <iterator>
 
 #include "nearest.hpp"
 
@@ -212,17 +213,20 @@ void ObjectReader::finish() {
 }
 
 void ObjectReader::requireAll() {
-    for (const std::string_view key : known_) {
+    std::vector<std::string_view> needed;
+    std::copy_if(known_.begin(), known_.end(), std::back_inserter(needed), [this](std::string_view key) {
+        return std::find(lacking_.begin(), lacking_.end(), key) == lacking_.end();
+    });
+    for (const std::string_view key : needed) {
         if (failure_) {
             return;
         }
-        const bool needed = std::find(lacking_.begin(), lacking_.end(), key) == lacking_.end();
-        if (needed && !object_.contains(std::string(key))) {
+        if (!object_.contains(std::string(key))) {
             // A misspelt key is both unknown and missing; the unknown one is the more useful message.
             finish();
             if (!failure_) {
                 failure_ = Error{SLUICE_ERROR_INVALID_ARGUMENT, name_, fmt::format("{}: missing", at(key)),
-                                 fmt::format("every member of this list needs: {}", fmt::join(known_, ", "))};
+                                 fmt::format("every member of this list needs: {}", fmt::join(needed, ", "))};
             }
         }
     }

@@ -125,6 +125,12 @@ constexpr BadScene kBadScenes[] = {
      "/simulation/emitters/0/stop: expected 0, or a time after start, which is 2, found 1"},
     {"EmitterSquare", R"({"simulation": {"emitters": [{"shape": "square"}]}})",
      R"(/simulation/emitters/0/shape: expected one of "disc", "box", found "square")"},
+    {"EmitterWithoutHeight",
+     R"({"simulation": {"emitters": [{"shape": "disc", "centre": [0,1,0], "direction": [0,1,0], "width": 1,
+                                      "speed": 1}]}})",
+     "/simulation/emitters/0/height: missing (every member of this list needs: shape, centre, direction, width, "
+     "height, "
+     "speed)"},
     {"DrainOval", R"({"simulation": {"drains": [{"shape": "sphere", "centre": [0,0,0], "half": [1,2,1]}]}})",
      "/simulation/drains/0/half: expected the radius of the sphere, three times, found [1, 2, 1]"},
     {"FieldIncomplete", R"({"simulation": {"fields": [{"kind": "wind", "centre": [0,0,0], "axis": [1,0,0]}]}})",
