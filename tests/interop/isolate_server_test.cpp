@@ -400,5 +400,20 @@ TEST_F(IsolateServer, MemoryThatIsNoTimelineEndsTheService) {
     EXPECT_THAT(served_.error().message(), HasSubstr("shared memory: expected"));
 }
 
+TEST(FlowAfter, KeepsTheFluidsThatAnEarlierFlowChangedAndNoMoreThanThat) {
+    auto thick = sized<SluiceFlow>();
+    thick.fluid_count = 2;
+    thick.fluids[1].viscosity = 0.5F;
+    thick.iterations = 3;
+    auto light = sized<SluiceFlow>();
+    light.iterations = 4;
+    EXPECT_EQ(flowAfter(std::nullopt, light).fluid_count, 0U);
+    const SluiceFlow after = flowAfter(thick, light);
+    EXPECT_EQ(after.fluid_count, 2U);
+    EXPECT_EQ(after.fluids[1].viscosity, 0.5F);
+    EXPECT_EQ(after.iterations, 4U);
+    EXPECT_EQ(flowAfter(light, thick).fluids[1].viscosity, 0.5F);
+}
+
 }  // namespace
 }  // namespace sluice::isolate

@@ -93,19 +93,22 @@ TEST_F(LiveShape, HaveThePlacesOfTheirParticlesWhenSomeComeAndGo) {
 
 TEST_F(LiveShape, FoamIsDrawnWhereItIsMadeAndAFrameThatAsksForNoneHasItsBits) {
     Block block;
+    const auto draw = [&](std::uint64_t k, double seconds, float foam) {
+        EXPECT_EQ(simulate(k, seconds), SLUICE_OK) << said.message;
+        SluiceFrame frame = frameOf(k, 2, SLUICE_VIEW_FLUID);
+        frame.simulation = k;
+        frame.fluid.foam = foam;
+        EXPECT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
+        EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value), SLUICE_OK);
+        EXPECT_EQ(api().timeline_wait(renderer->get(), k, kLong), SLUICE_OK);
+        EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value + 1), SLUICE_OK);
+        return host->texels(SLUICE_IMAGE_FLUID_COLOUR, frame.image_set);
+    };
     const auto pictures = [&](const Block& of, float foam) {
         start(of);
         std::vector<std::vector<std::byte>> out;
         for (std::uint64_t k = 1; k <= 5; ++k) {
-            EXPECT_EQ(simulate(k, k == 1 ? 0.0 : kFrame), SLUICE_OK) << said.message;
-            SluiceFrame frame = frameOf(k, 2, SLUICE_VIEW_FLUID);
-            frame.simulation = k;
-            frame.fluid.foam = foam;
-            EXPECT_EQ(renderer->submit(frame), SLUICE_OK) << renderer->error().message;
-            EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value), SLUICE_OK);
-            EXPECT_EQ(api().timeline_wait(renderer->get(), k, kLong), SLUICE_OK);
-            EXPECT_EQ(api().timeline_signal(renderer->get(), frame.wait_value + 1), SLUICE_OK);
-            out.push_back(host->texels(SLUICE_IMAGE_FLUID_COLOUR, frame.image_set));
+            out.push_back(draw(k, k == 1 ? 0.0 : kFrame, foam));
         }
         EXPECT_EQ(stats().failed, 0U) << stats().message;
         EXPECT_EQ(frameStats(5).validation_messages, 0U);
@@ -129,6 +132,24 @@ TEST_F(LiveShape, FoamIsDrawnWhereItIsMadeAndAFrameThatAsksForNoneHasItsBits) {
     EXPECT_THAT(passes(), HasSubstr("splat_foam"));
     EXPECT_EQ(white[0], clear[0]) << "nothing has moved yet";
     EXPECT_NE(white[4], clear[4]);
+
+    // Particles that begin anew have none of the foam of those before them, though as much time has gone by.
+    start(block);
+    const auto first = draw(1, 4 * kFrame, 1.0F);
+    auto anew = sized<SluiceStart>();
+    anew.particle_count = block.simulation.particle_count;
+    anew.position = block.simulation.position;
+    std::vector<float> fast(3 * std::size_t{anew.particle_count});
+    for (std::size_t i = 0; i < fast.size(); ++i) {
+        fast[i] = i % 2 == 0 ? 0.5F : -0.5F;
+    }
+    anew.velocity = fast.data();
+    EXPECT_EQ(api().reset_simulation(renderer->get(), &anew, &said), SLUICE_OK) << said.message;
+    EXPECT_NE(draw(2, 4 * kFrame, 1.0F), first);
+    anew.velocity = block.simulation.velocity;
+    EXPECT_EQ(api().reset_simulation(renderer->get(), &anew, &said), SLUICE_OK) << said.message;
+    EXPECT_EQ(draw(3, 4 * kFrame, 1.0F), first);
+
     for (const float life : {-1.0F, std::nanf("")}) {
         block.simulation.foam_life = life;
         EXPECT_EQ(api().set_simulation(renderer->get(), &block.simulation, &said), SLUICE_ERROR_INVALID_ARGUMENT);
