@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "device/structs.hpp"
@@ -12,18 +11,10 @@
 namespace sluice::vk {
 namespace {
 
-/// Of layer 1.3.239, while one thread is in vkWaitSemaphores and another in vkSignalSemaphore: it waits ten seconds for
-/// itself and says so; its own text calls that a bug of the layer (docs/validation.md has the evidence). No other
-/// message is passed over.
-constexpr std::string_view kLayerWaitsForItself = "UNASSIGNED-VkSemaphore-state-timeout";
-
 VKAPI_ATTR VkBool32 VKAPI_CALL deliver(VkDebugUtilsMessageSeverityFlagBitsEXT severity,
                                        VkDebugUtilsMessageTypeFlagsEXT /*types*/,
                                        const VkDebugUtilsMessengerCallbackDataEXT* data, void* user) {
     auto& sink = *static_cast<MessageSink*>(user);
-    if (data->pMessageIdName != nullptr && data->pMessageIdName == kLayerWaitsForItself) {
-        return VK_FALSE;
-    }
     sink.count.fetch_add(1, std::memory_order_relaxed);
     const bool error = severity >= VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
     try {
