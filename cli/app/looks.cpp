@@ -28,6 +28,20 @@ std::vector<SluiceLook> otherLooks(const scene::Scene& scene) {
     return apart ? looks : std::vector<SluiceLook>{};
 }
 
+std::uint32_t nearestFluid(const std::vector<scene::FluidKind>& fluids, const float* colour) {
+    const auto distance = [colour](const scene::FluidKind& fluid) {
+        double square = 0.0;
+        for (std::size_t channel = 0; channel < 3; ++channel) {
+            const double off = double{fluid.colour.at(channel)} - double{colour[channel]};
+            square += off * off;
+        }
+        return square;
+    };
+    const auto nearest = std::min_element(fluids.begin(), fluids.end(),
+                                          [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
+    return static_cast<std::uint32_t>(nearest - fluids.begin());
+}
+
 std::vector<std::uint32_t> fluidsOf(const particles::ParticleSet& set, const scene::Scene& scene) {
     const std::vector<scene::FluidKind>& fluids = scene.simulation.fluids;
     std::vector<std::uint32_t> numbers;
@@ -36,17 +50,7 @@ std::vector<std::uint32_t> fluidsOf(const particles::ParticleSet& set, const sce
     }
     numbers.reserve(set.count());
     for (std::size_t i = 0; i < set.colour.size(); i += 3) {
-        const auto distance = [&](const scene::FluidKind& fluid) {
-            float square = 0.0F;
-            for (std::size_t k = 0; k < 3; ++k) {
-                const float off = set.colour[i + k] - fluid.colour.at(k);
-                square += off * off;
-            }
-            return square;
-        };
-        const auto nearest = std::min_element(fluids.begin(), fluids.end(),
-                                              [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
-        numbers.push_back(static_cast<std::uint32_t>(nearest - fluids.begin()));
+        numbers.push_back(nearestFluid(fluids, &set.colour[i]));
     }
     return numbers;
 }

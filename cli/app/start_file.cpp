@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/looks.hpp"
 #include "app/simulate_setup.hpp"
 #include "sluice/particles/particles.hpp"
 
@@ -21,23 +22,6 @@ bool within(const scene::FluidBox& box, const float* x) {
         inside = inside && x[axis] > box.low.at(axis) && x[axis] < box.high.at(axis);
     }
     return inside;
-}
-
-std::uint32_t nearestFluid(const std::vector<scene::FluidKind>& fluids, const float* colour) {
-    std::uint32_t nearest = 0;
-    double least = 1e300;
-    for (std::uint32_t i = 0; i < fluids.size(); ++i) {
-        double apart = 0.0;
-        for (std::size_t channel = 0; channel < 3; ++channel) {
-            const double d = double{fluids[i].colour.at(channel)} - double{colour[channel]};
-            apart += d * d;
-        }
-        if (apart < least) {
-            least = apart;
-            nearest = i;
-        }
-    }
-    return nearest;
 }
 
 Status checkPlaces(const scene::Simulation& simulation, const simulator::Setup& setup,
