@@ -116,8 +116,8 @@ TEST_F(GlDevice, WithoutSharedMemoryOneLineSaysSo) {
     const Outcome outcome = run("probe", "env MESA_EXTENSION_OVERRIDE=-GL_EXT_memory_object_fd");
     EXPECT_EQ(outcome.code, 3);
     EXPECT_THAT(outcome.out, AllOf(HasSubstr("problem   shared memory: GL_EXT_memory_object_fd is missing"),
-                                   HasSubstr("verdict   GL and Vulkan cannot share images here.\n"), HasSubstr("not tried"),
-                                   Not(HasSubstr("FAILED"))));
+                                   HasSubstr("verdict   GL and Vulkan cannot share images here.\n"),
+                                   HasSubstr("not tried"), Not(HasSubstr("FAILED"))));
 }
 
 }  // namespace

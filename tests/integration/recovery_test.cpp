@@ -102,9 +102,10 @@ TEST_F(RecoveryTest, ARendererThatKeepsFailingIsGivenUpAfterItsTriesAndSaidOnceE
     EXPECT_EQ(control_->attempt_count, 3U);
     EXPECT_EQ(control_->submits, 2U);
     EXPECT_TRUE(descriptorsReturnTo(descriptors)) << openDescriptors() << " instead of " << descriptors;
-    EXPECT_THAT(complaints_,
-                ElementsAre(HasSubstr("created again within 1 frame"), HasSubstr("try 1 of 2 failed, the next one in 2"),
-                            AllOf(HasSubstr("try 2 of 2 failed, given up"), HasSubstr("the shim refuses"))));
+    EXPECT_THAT(
+        complaints_,
+        ElementsAre(HasSubstr("created again within 1 frame"), HasSubstr("try 1 of 2 failed, the next one in 2"),
+                    AllOf(HasSubstr("try 2 of 2 failed, given up"), HasSubstr("the shim refuses"))));
     EXPECT_THAT(failures_.back(), HasSubstr("there is no renderer: renderer create: the shim refuses this timeline"));
     // A resize is a fresh start.
     resetShim();

@@ -12,7 +12,8 @@
 namespace sluice::cli::images {
 namespace {
 
-constexpr const char* kRemedy = "render one: sluice render SCENE --no-fluid --frames 1..1 -o FILE.png --layers FILE.exr";
+constexpr const char* kRemedy =
+    "render one: sluice render SCENE --no-fluid --frames 1..1 -o FILE.png --layers FILE.exr";
 
 Error bad(const std::filesystem::path& path, std::string detail) {
     return Error{SLUICE_ERROR_INVALID_ARGUMENT, path.string(), std::move(detail), kRemedy};
