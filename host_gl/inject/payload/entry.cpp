@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <bit>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -105,6 +106,11 @@ void withSession(What what) noexcept {
 /// At least as often as somebody may want to read it; a program that is killed leaves the last one.
 constexpr std::chrono::milliseconds kReportInterval{500};
 
+/// The first frames are where all is found out, and a program may be killed before the interval has passed.
+bool mustBeReported(std::uint64_t frames) {
+    return frames <= 64 && std::has_single_bit(frames);
+}
+
 /// `session` is of the calling thread; NULL: all that are.
 void report(Session* session, bool always) {
     const std::string& folder = process->payload.settings.report;
@@ -146,7 +152,7 @@ void swap(std::uint32_t /*api*/, void* /*display*/, std::uintptr_t drawable, con
     }
     withSession([&](Session& at) {
         at.swap(current, route);
-        report(&at, at.frames() == 1);
+        report(&at, mustBeReported(at.frames()));
     });
 }
 
