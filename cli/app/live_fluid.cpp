@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/checked_setup.hpp"
 #include "app/simulate_setup.hpp"
 #include "app/start_file.hpp"
 
@@ -159,11 +160,12 @@ bool simulatesLive(const scene::Scene& scene) {
 
 Result<LiveFluid> liveFluid(const scene::Scene& scene, const std::vector<simulator::Mesh>& meshes,
                             const LiveRequest& request) {
-    simulator::Setup setup = simulationSetup(scene);
     const bool by_depth = scene.simulation.collide == scene::kCollideDepth;
-    if (Status status = by_depth ? Status{} : simulator::addMeshes(setup, meshes); !status) {
-        return status.error();
+    const Result<simulator::Setup> checked = checkedSetup(scene, meshes);
+    if (!checked) {
+        return checked.error();
     }
+    const simulator::Setup& setup = checked.value();
     Result<simulator::Particles> start = wholeStart(scene.simulation, setup, request.seed);
     if (!start) {
         return start.error();

@@ -5,6 +5,7 @@
 #include <chrono>
 
 #include "app/body_files.hpp"
+#include "app/checked_setup.hpp"
 #include "app/commands.hpp"
 #include "app/depth_files.hpp"
 #include "app/file_roles.hpp"
@@ -186,24 +187,27 @@ int runFrames(Run& run) {
 
 /// With what files hold: meshes, or what is seen of them.
 Result<simulator::Setup> wholeSetup(const scene::Scene& scene, std::int64_t last, const std::string& name) {
-    simulator::Setup setup = simulationSetup(scene);
     const scene::Simulation& settings = scene.simulation;
-    if (settings.collide == scene::kCollideDepth) {
+    const bool by_depth = settings.collide == scene::kCollideDepth;
+    const Result<std::vector<simulator::Mesh>> meshes =
+        by_depth ? std::vector<simulator::Mesh>{} : readMeshes(settings);
+    if (!meshes) {
+        return meshes.error();
+    }
+    Result<simulator::Setup> setup = checkedSetup(scene, meshes.value());
+    if (!setup) {
+        Error error = setup.error();
+        error.thing = name + ": " + error.thing;
+        return error;
+    }
+    if (by_depth) {
         auto seen = firstDepth(scene, last);
         if (!seen) {
             Error error = seen.error();
             error.thing = settings.depth.path.empty() ? name + ": " + error.thing : error.thing;
             return error;
         }
-        setup.seen = std::move(seen).value();
-        return setup;
-    }
-    const Result<std::vector<simulator::Mesh>> meshes = readMeshes(settings);
-    if (!meshes) {
-        return meshes.error();
-    }
-    if (Status status = simulator::addMeshes(setup, meshes.value()); !status) {
-        return status.error();
+        setup.value().seen = std::move(seen).value();
     }
     return setup;
 }

@@ -79,6 +79,10 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
 
 }  // namespace
 
+Status check(const Setup& setup) {
+    return vk::checkSettings(settingsOf(setup));
+}
+
 Status addMeshes(Setup& setup, std::span<const Mesh> meshes) {
     std::vector<vk::Mesh> all;
     for (const Mesh& mesh : meshes) {

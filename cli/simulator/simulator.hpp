@@ -127,6 +127,9 @@ struct Advance {
     std::uint64_t born = 0, blocked = 0, drained = 0;  ///< particles
 };
 
+/// What Simulator::create would refuse of it on any device; the error's thing is "simulation: WHAT[ NUMBER][: FIELD]".
+[[nodiscard]] Status check(const Setup& setup);
+
 /// Makes the meshes solids of a setup whose radius and domain are final. Refused, with the mesh named, unless each is a
 /// closed surface.
 [[nodiscard]] Status addMeshes(Setup& setup, std::span<const Mesh> meshes);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 // `sluice simulate`: the files it writes, that they are the same again, and what it says when it cannot.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
@@ -201,12 +203,32 @@ TEST_F(Simulate, ATapFillsAnEmptySceneAndADrainTakesFromIt) {
               done["particles"]["born"].get<int>() - done["particles"]["drained"].get<int>());
     EXPECT_EQ(simulate("s.json -o g_##.ply --frames 16..16")["replay_hash"], done["replay_hash"]);
     EXPECT_EQ(read("f_16.ply"), read("g_16.ply"));
-    write("wall.json", R"({"simulation": {
-        "emitters": [{"shape": "disc", "centre": [1, 1, 0], "direction": [0, -1, 0], "width": 0.2, "height": 0.2,
-                      "speed": 2, "rate": 0, "start": 0, "stop": 0}]}})");
-    const Outcome outcome = run("simulate wall.json -o w.ply");
-    EXPECT_EQ(outcome.code, 2);
-    EXPECT_THAT(outcome.err, HasSubstr("emitter 0: expected an opening within the domain"));
+}
+
+TEST_F(Simulate, WhatTheSolverRefusesIsTheSameWordsFromBothCommandsBeforeAnyFile) {
+    const auto tap = [this](const char* name, const char* centre, const char* rate) {
+        write(name, fmt::format(R"({{"size": [48, 27], "simulation": {{"radius": 0.05, "emitters": [
+            {{"shape": "disc", "centre": {}, "direction": [0, -1, 0], "width": 0.4, "height": 0.4, "speed": 2,
+              "rate": {}}}]}}}})",
+                                centre, rate));
+    };
+    tap("wall.json", "[1, 1, 0]", "0");
+    tap("rate.json", "[0, 1, 0]", "1000000");
+    write("kernel.json", R"({"size": [48, 27], "simulation": {"radius": 0.05, "iterations": 1, "kernel": "spline",
+        "fluid": [{"low": [-0.4, 0, -0.4], "high": [0.4, 0.3, 0.4], "velocity": [0, 0, 0]}]}})");
+    const auto refused = [this](const std::string& scene, const char* says) {
+        const Outcome simulated = run("simulate " + scene + " -o made/f.pos");
+        const Outcome rendered = run("render " + scene + " -o made/f.png --frames 1..3");
+        EXPECT_EQ(simulated.code, 2);
+        EXPECT_EQ(rendered.code, 2);
+        EXPECT_THAT(simulated.err, HasSubstr(scene + ": /simulation/" + says));
+        EXPECT_EQ(simulated.err, rendered.err);
+        EXPECT_EQ(std::count(rendered.err.begin(), rendered.err.end(), '\n'), 1) << rendered.err;
+        EXPECT_FALSE(exists("made"));
+    };
+    refused("wall.json", "emitters/0/centre: expected an opening within the domain");
+    refused("rate.json", "emitters/0/rate: expected a rate in [0, 240]");
+    refused("kernel.json", "iterations: expected 2 to 64 with a kernel other than poly6, found 1");
 }
 
 TEST_F(Simulate, BodiesAreWrittenBesideTheirFrameAndDrawnWhereTheyAre) {

@@ -106,13 +106,13 @@ bool finite(const Triple& v) {
 Status checkBody(const Body& body, const std::string& thing, const Triple& low, const Triple& high) {
     const Triple& h = body.half;
     if (!finite(h) || std::min({h[0], h[1], h[2]}) <= 0.0F) {
-        return wrong(thing, "half extents > 0", shown(h));
+        return wrong(thing + ": half", "half extents > 0", shown(h));
     }
     const bool round = body.shape == SolidKind::Sphere
                            ? h[0] == h[1] && h[1] == h[2]
                            : body.shape != SolidKind::Capsule || (h[0] == h[2] && h[1] >= h[0]);
     if (!round) {
-        return wrong(thing,
+        return wrong(thing + ": half",
                      body.shape == SolidKind::Sphere ? "the radius of a sphere, three times"
                                                      : "the radius of a capsule, its half length, its radius",
                      shown(h));
@@ -124,7 +124,7 @@ Status checkBody(const Body& body, const std::string& thing, const Triple& low, 
     }
     for (std::size_t axis = 0; axis < 3; ++axis) {
         if (!(body.centre[axis] >= low[axis] && body.centre[axis] <= high[axis]) && body.free()) {
-            return wrong(thing, fmt::format("a centre in the domain, {} to {}", shown(low), shown(high)),
+            return wrong(thing + ": centre", fmt::format("a centre in the domain, {} to {}", shown(low), shown(high)),
                          shown(body.centre), "move it into the box, or drive it instead of letting it float");
         }
     }
@@ -132,7 +132,7 @@ Status checkBody(const Body& body, const std::string& thing, const Triple& low, 
         const PathPoint& point = body.path[i];
         if (!finite(point.centre) || !std::isfinite(point.turn_degrees) ||
             !(point.time >= 0.0F && (i == 0 || point.time > body.path[i - 1].time))) {
-            return wrong(thing, "a path of finite places at times that ascend from 0 or later",
+            return wrong(thing + ": path", "a path of finite places at times that ascend from 0 or later",
                          fmt::format("{} s at {}", point.time, i));
         }
     }
@@ -268,7 +268,8 @@ void pushBody(const Body& body, BodyState& state, const Vector& impulse, const V
 
 Status checkBodies(std::span<const Body> bodies, const Triple& low, const Triple& high) {
     if (bodies.size() > kMaxBodies) {
-        return wrong("simulation: bodies", fmt::format("at most {}", kMaxBodies), fmt::format("{}", bodies.size()));
+        return wrong("simulation: bodies", fmt::format("at most {}", kMaxBodies), fmt::format("{}", bodies.size()),
+                     "leave some out");
     }
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (Status status = checkBody(bodies[i], fmt::format("simulation: body {}", i), low, high); !status) {

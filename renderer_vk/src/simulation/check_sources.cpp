@@ -30,37 +30,40 @@ bool hasLength(const Triple& v) {
 }
 
 Status checkOpening(const Emitter& e, const std::string& thing, float radius) {
-    if (!finite(e.centre) || !finite(e.direction) || !hasLength(e.direction)) {
-        return wrong(thing, "a finite centre and a direction of length > 0",
-                     shown(e.centre) + " and " + shown(e.direction));
+    if (!finite(e.centre)) {
+        return wrong(thing + ": centre", "finite numbers", shown(e.centre));
+    }
+    if (!finite(e.direction) || !hasLength(e.direction)) {
+        return wrong(thing + ": direction", "a direction of length > 0", shown(e.direction));
     }
     if (!(e.width > 0.0F && e.height > 0.0F && std::isfinite(e.width) && std::isfinite(e.height)) ||
         (e.disc && e.width != e.height)) {
-        return wrong(thing, e.disc ? "a diameter > 0 as width and as height" : "a width and a height > 0",
+        return wrong(thing + ": width", e.disc ? "a diameter > 0 as width and as height" : "a width and a height > 0",
                      fmt::format("{} and {}", e.width, e.height));
     }
     const double spacing = 2.0 * double{radius};
     if (std::max(double{e.width} / spacing, 1.0) * std::max(double{e.height} / spacing, 1.0) > kMostSites) {
-        return wrong(thing, fmt::format("an opening for at most {} particles", kMostSites),
-                     fmt::format("{} by {} m with particles of radius {}", e.width, e.height, radius));
+        return wrong(thing + ": width", fmt::format("an opening for at most {} particles", kMostSites),
+                     fmt::format("{} by {} m with particles of radius {}", e.width, e.height, radius),
+                     "make it smaller, or the radius of the particles larger");
     }
     return {};
 }
 
 Status checkFlow(const Emitter& e, const std::string& thing, std::size_t sites, float radius) {
     if (!(e.speed > 0.0F && e.speed <= 1e4F)) {
-        return wrong(thing, "a speed in (0, 10000] m/s", fmt::format("{}", e.speed),
+        return wrong(thing + ": speed", "a speed in (0, 10000] m/s", fmt::format("{}", e.speed),
                      "give a speed; one that is to be shut has a stop, or is left out");
     }
     const double densest = static_cast<double>(sites) * double{e.speed} / (2.0 * double{radius});
     if (!(e.rate >= 0.0F && double{e.rate} <= densest * (1.0 + 1e-6))) {
-        return wrong(thing,
+        return wrong(thing + ": rate",
                      fmt::format("a rate in [0, {:.6g}] particles per second, which is {} at a time, two radii apart",
                                  densest, sites),
                      fmt::format("{}", e.rate), "give 0 for the densest, or a larger opening, or a higher speed");
     }
     if (!(e.start >= 0.0F && std::isfinite(e.start) && std::isfinite(e.stop) && (e.stop == 0.0F || e.stop > e.start))) {
-        return wrong(thing, "a start >= 0 and a stop after it, or 0 for none",
+        return wrong(thing + ": stop", "a start >= 0 and a stop after it, or 0 for none",
                      fmt::format("{} and {}", e.start, e.stop), "give 0 and 0 for one that never stops");
     }
     return {};
@@ -71,18 +74,20 @@ Status checkSites(std::span<const Triple> sites, const std::string& thing, float
     for (const Triple& x : sites) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (x[axis] < low[axis] + 0.5F * radius || x[axis] > high[axis] - 0.5F * radius) {
-                return wrong(thing, fmt::format("an opening within the domain, {} to {}", shown(low), shown(high)),
-                             shown(x), "move its centre into the box, half a radius and its width from the walls");
+                return wrong(thing + ": centre",
+                             fmt::format("an opening within the domain, {} to {}", shown(low), shown(high)), shown(x),
+                             "move its centre into the box, half a radius and its width from the walls");
             }
         }
         for (std::size_t k = 0; k < solids.size(); ++k) {
             if (distanceTo(solids[k], x) < 0.5 * double{radius}) {
-                return wrong(thing, fmt::format("an opening outside solid {}", k), shown(x),
+                return wrong(thing + ": centre", fmt::format("an opening outside solid {}", k), shown(x),
                              "move it out, along its direction");
             }
         }
         if (meshes != nullptr && contactWith(*meshes, wide(x)).distance < 0.5 * double{radius}) {
-            return wrong(thing, "an opening outside the meshes", shown(x), "move it out, along its direction");
+            return wrong(thing + ": centre", "an opening outside the meshes", shown(x),
+                         "move it out, along its direction");
         }
     }
     return {};
@@ -91,7 +96,7 @@ Status checkSites(std::span<const Triple> sites, const std::string& thing, float
 Status checkNumber(const char* what, std::size_t number, std::size_t most) {
     return number <= most ? Status{}
                           : Status{wrong(fmt::format("simulation: {}", what), fmt::format("at most {}", most),
-                                         fmt::format("{}", number))};
+                                         fmt::format("{}", number), "leave some out")};
 }
 
 Status checkDrain(const Drain& d, const std::string& thing) {

@@ -31,7 +31,8 @@ double densityRatio(std::span<const Fluid> fluids) {
 
 Status checkFluids(std::span<const Fluid> fluids) {
     if (fluids.size() > kMaxFluids) {
-        return wrong("simulation: fluids", fmt::format("at most {}", kMaxFluids), fmt::format("{}", fluids.size()));
+        return wrong("simulation: fluids", fmt::format("at most {}", kMaxFluids), fmt::format("{}", fluids.size()),
+                     "leave some out");
     }
     for (std::size_t i = 0; i < fluids.size(); ++i) {
         const struct {

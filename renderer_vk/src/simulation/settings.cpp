@@ -137,7 +137,7 @@ Status checkSettings(const SimulationSettings& s) {
     }
     if (s.kernel != DensityKernel::Poly6 && s.iterations < 2) {
         return wrong("simulation: iterations", "2 to 64 with a kernel other than poly6",
-                     fmt::format("{}", s.iterations));
+                     fmt::format("{}", s.iterations), "give 2 or more, or take poly6");
     }
     if (!finite(s.gravity)) {
         return wrong("simulation: gravity", "finite numbers", shown(s.gravity));
@@ -147,11 +147,12 @@ Status checkSettings(const SimulationSettings& s) {
     for (std::size_t i = 0; i < 3; ++i) {
         if (!finite(s.low) || !finite(s.high) || s.low[i] < -farthest || s.high[i] > farthest) {
             return wrong("simulation: domain", fmt::format("corners within {} m (100,000 radii)", farthest),
-                         fmt::format("{} to {}", shown(s.low), shown(s.high)));
+                         fmt::format("{} to {}", shown(s.low), shown(s.high)),
+                         "move it nearer to the origin, or make the radius larger");
         }
         if (s.high[i] - s.low[i] < 4.0F * s.radius) {
             return wrong("simulation: domain", fmt::format("{} m (4 radii) or more each way", 4.0F * s.radius),
-                         fmt::format("{} to {}", shown(s.low), shown(s.high)));
+                         fmt::format("{} to {}", shown(s.low), shown(s.high)), "make it wider, or the radius smaller");
         }
     }
     for (std::size_t i = 0; i < s.solids.size(); ++i) {
@@ -161,7 +162,7 @@ Status checkSettings(const SimulationSettings& s) {
     }
     if (const std::size_t within = solidsWithin(s).size(); within > kMaxSolids) {
         return wrong("simulation: solids", fmt::format("at most {} that reach into the domain", kMaxSolids),
-                     fmt::format("{}", within));
+                     fmt::format("{}", within), "leave some out, or make the domain smaller");
     }
     if (Status status = checkFluids(s); !status) {
         return status;
