@@ -776,10 +776,10 @@ typedef struct SluiceRendererApi {
      * as it was. A first tension or vorticity, and another axis of gravity, take the time of compiling passes. */
     SluiceResult (*set_flow)(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceError* error);
 
-    /* The value that simulate is called with next begins with these particles in place of those that flow: at time 0,
-     * with bodies as they were given and with set_flow as it is; `seconds` of 0 shows them as they are. What was asked
-     * for before comes first, and a simulation that has failed flows again. Returns at once; what is wrong is refused
-     * by name, and all stays as it was. */
+    /* Since ABI 1.3. The value that simulate is called with next begins with these particles in place of those that
+     * flow: at time 0, with bodies as they were given and with set_flow as it is; `seconds` of 0 shows them as they
+     * are. What was asked for before comes first, and a simulation that has failed flows again. Returns at once; what
+     * is wrong is refused by name, and all stays as it was. */
     SluiceResult (*reset_simulation)(SluiceRenderer* renderer, const SluiceStart* start, SluiceError* error);
 } SluiceRendererApi;
 
