@@ -20,7 +20,8 @@ TEST_F(InjectTest, WithoutFluidEveryFrameIsTheProgramsOwnByEveryRoute) {
     for (const char* words :
          {"glx symbol", "glx proc resize", "glx dlsym core depth=32", "egl symbol core second", "egl proc", "egl dlsym",
           "glx symbol samples=4", "glx dlsym core ubo", "egl proc es ubo", "egl symbol es", "glx symbol second",
-          "glx symbol destroy frames=6", "egl symbol destroy frames=6"}) {
+          "glx symbol destroy frames=6", "egl symbol destroy frames=6", "glx symbol minimise frames=6",
+          "egl symbol minimise frames=6"}) {
         const Outcome alone = bare(words);
         ASSERT_EQ(alone.code, 0) << words << alone.err;
         const Outcome with = injected("--off", words);
@@ -91,6 +92,7 @@ TEST_F(InjectTest, AFluidSurvivesResizeOtherContextsAndADestroyedOne) {
     };
     for (const auto& [words, without] :
          {Case{"glx symbol resize frames=6", {0}}, Case{"glx symbol second frames=4", {0, 1}},
+          Case{"glx symbol minimise frames=6", {0}}, Case{"egl symbol minimise frames=6", {0}},
           Case{"glx symbol destroy frames=6", {0, 4}}, Case{"egl symbol es destroy frames=6", {0, 4, 5}}}) {
         const Outcome alone = bare(words);
         const Outcome with = injected("--report --step 0.02", words);

@@ -7,6 +7,7 @@
  *   frames=N (4)  depth=N (24)  samples=N (0)  core  (a core profile with a shader of its own)  es  (OpenGL ES 3)
  *   ubo  (the matrix in a uniform block, written by a call and through a mapping in turns)
  *   reversed  (core: depth from 0 to 1, 1 at the near plane)
+ *   minimise  (unmapped for the third of the frames in the middle)
  *   resize  (in the middle)  destroy  (the context in the middle of a frame, then another one)  second  (another
  * context in another window, turn by turn)  raise=N (ends by that signal)  code=N (exits with it)  quiet (no hash)
  * child=COMMAND bar=HOW (the bar is drawn with rect, rectv, pixels or bitmap) */
@@ -29,7 +30,7 @@
 typedef void (*Function)(void);
 
 static struct {
-    int egl, core, es, ubo, reversed, resize, destroy, second, quiet;
+    int egl, core, es, ubo, reversed, resize, minimise, destroy, second, quiet;
     int frames, depth, samples, raise, code;
     const char *route, *child, *bar;
 } options = {.frames = 4, .depth = 24, .route = "symbol", .bar = "array"};
@@ -384,6 +385,7 @@ static void read_options(int argc, char** argv) {
         options.reversed |= strcmp(word, "reversed") == 0;
         options.core |= strcmp(word, "core") == 0 || options.es;
         options.resize |= strcmp(word, "resize") == 0;
+        options.minimise |= strcmp(word, "minimise") == 0;
         options.destroy |= strcmp(word, "destroy") == 0;
         options.second |= strcmp(word, "second") == 0;
         options.quiet |= strcmp(word, "quiet") == 0;
@@ -414,6 +416,11 @@ int main(int argc, char** argv) {
             }
             (void)XSync(display, False);
         }
+        const int hidden = options.minimise && frame >= options.frames / 3 && frame < options.frames * 2 / 3;
+        if (options.minimise) {
+            (void)(hidden ? XUnmapWindow(display, first.window) : XMapRaised(display, first.window));
+            (void)XSync(display, False);
+        }
         Screen_* const to = options.second && frame % 2 == 1 ? &other : &first;
         if (options.second) {
             make_current(to);
@@ -428,7 +435,7 @@ int main(int argc, char** argv) {
             glEnable(0xFFFF); /* an error that the program asks for after the swap, and must find */
         }
         swap(to);
-        if (!options.quiet) {
+        if (!options.quiet && !hidden) { /* X has no front buffer of a window that is not there */
             tell(to, frame);
         }
         if (frame == options.frames / 10) {
