@@ -177,5 +177,49 @@ TEST_F(Misuse, WaterThatCannotBeIsNamedWithItsRemedy) {
     }
 }
 
+TEST_F(Misuse, WhatTheNextContextsRendererRefusesIsNamedInEveryFrameUntilItIsSetAnew) {
+    begin();
+    EXPECT_EQ(frame(fluid_.get(), 1.0), SLUICE_OK) << sluice_last_error(fluid_.get());
+    caller_.destroyContext();
+    SluiceEmitter tap{};
+    tap.centre[1] = 1.8F;
+    tap.direction[1] = -1.0F;
+    tap.width = tap.height = 0.2F;
+    SluiceWater water{};
+    sluice_water_defaults(&water, sizeof(water));
+    water.emitter_count = 1;
+    water.emitters = &tap;
+    EXPECT_EQ(sluice_set_water(fluid_.get(), &water), SLUICE_OK) << "there is no renderer to refuse it yet";
+    const EglCaller second({4, 5, true}, Window{});
+    const Camera eye = camera();
+    for (int k = 0; k < 9; ++k) {  // tries to give it lie 1, 2, 4 frames apart
+        const double time = 1.1 + 0.1 * k;
+        EXPECT_EQ(sluice_begin_frame(fluid_.get(), eye.view.data(), eye.projection.data(), time),
+                  SLUICE_ERROR_INVALID_ARGUMENT);
+        EXPECT_EQ(sluice_end_frame(fluid_.get()), SLUICE_ERROR_INVALID_ARGUMENT);
+        EXPECT_NE(std::string(sluice_last_error(fluid_.get())).find("a speed in (0, 10000]"), std::string::npos)
+            << sluice_last_error(fluid_.get());
+    }
+    EXPECT_EQ(statisticsOf(fluid_.get()).renderers, 1U) << "it is not the renderer that is at fault";
+    ASSERT_EQ(log_.lines.size(), 2U) << "that everything is made anew, and why it cannot be";
+    EXPECT_NE(log_.lines[1].find("emitter 0: speed: expected"), std::string::npos) << log_.lines[1];
+    log_.lines.clear();
+    ASSERT_EQ(pour(fluid_.get()), SLUICE_OK) << sluice_last_error(fluid_.get());
+    EXPECT_EQ(frame(fluid_.get(), 2.1), SLUICE_OK) << sluice_last_error(fluid_.get());
+    EXPECT_EQ(log_.lines, std::vector<std::string>{});
+}
+
+TEST_F(Misuse, WaterThatIsSetWithinAFrameIsOfTheNext) {
+    fluid_ = make(options(log_, SLUICE_PROCESS_SAME, 0, 0));
+    const Camera eye = camera();
+    for (int k = 0; k < 2; ++k) {  // the first frame began without water, the second with other water
+        EXPECT_EQ(sluice_begin_frame(fluid_.get(), eye.view.data(), eye.projection.data(), 1.0), SLUICE_OK);
+        ASSERT_EQ(pour(fluid_.get()), SLUICE_OK) << sluice_last_error(fluid_.get());
+        EXPECT_EQ(sluice_end_frame(fluid_.get()), SLUICE_NOT_READY);
+    }
+    EXPECT_EQ(frame(fluid_.get(), 1.1), SLUICE_OK) << sluice_last_error(fluid_.get());
+    EXPECT_EQ(log_.lines, std::vector<std::string>{});
+}
+
 }  // namespace
 }  // namespace sluice::test

@@ -267,6 +267,17 @@ Status Session::giveScene() {
     return status && simulation && flow_ ? host_->setFlow(*flow_) : status;
 }
 
+Status Session::started(Status status) {
+    if (status) {
+        start_error_.reset();
+        tries_ = 0;
+    } else {
+        start_error_ = status.error();
+        to_go_ = 1U << std::min(tries_++, kLongestPause);
+    }
+    return status;
+}
+
 Status Session::settle(const std::optional<Extent>& wanted) {
     const CurrentContext context = currentContext();
     if (context.kind == ContextKind::None) {
@@ -281,10 +292,8 @@ Status Session::settle(const std::optional<Extent>& wanted) {
             --to_go_;
             return *start_error_;
         }
-        if (Status status = checkContext(); !status) {
-            return status;
-        }
-        if (host_ != nullptr) {
+        const Status usable = checkContext();
+        if (usable && host_ != nullptr) {
             log_(SLUICE_LOG_WARNING,
                  "another GL context is current: everything is made anew in it, and the fluid begins again");
         }
@@ -293,15 +302,17 @@ Status Session::settle(const std::optional<Extent>& wanted) {
                                                   : extent_;
         tries_ = context == tried_in_ ? tries_ : 0;
         tried_in_ = context;
-        Status status = start(context, extent);
-        if (status) {
-            start_error_.reset();
-            tries_ = 0;
-        } else {
-            start_error_ = status.error();
-            to_go_ = 1U << std::min(tries_++, kLongestPause);
+        return started(usable ? start(context, extent) : usable);
+    }
+    // The renderer is there, and what it is to draw was refused: there is nothing to go on with until it is taken.
+    if (start_error_) {
+        if (to_go_ > 0) {
+            --to_go_;
+            return *start_error_;
         }
-        return status;
+        if (Status status = started(giveScene()); !status) {
+            return status;
+        }
     }
     if (wanted && (host_->info().width != (*wanted)[0] || host_->info().height != (*wanted)[1])) {
         return host_->resize((*wanted)[0], (*wanted)[1]);
@@ -348,16 +359,27 @@ Status Session::setCamera(const float* view, const float* projection) {
 
 Status Session::beginFrame(const float* view, const float* projection, double time) {
     in_frame_ = true;
+    begun_in_ = currentContext();
+    begin_error_.reset();
     const double passed = clock_ && std::isfinite(time) ? time - *clock_ : 0.0;
     if (std::isfinite(time)) {
         clock_ = time;
     }
-    if (!active()) {
+    began_active_ = active();
+    if (!began_active_) {
         return {};
     }
     owed_ = std::clamp(owed_ + std::max(passed, 0.0), 0.0, kLongestStride);
     Status camera = setCamera(view, projection);
-    if (currentContext().kind == ContextKind::None) {
+    if (Status status = flowOn(); !status) {
+        begin_error_ = status.error();
+        return status;
+    }
+    return camera;
+}
+
+Status Session::flowOn() {
+    if (begun_in_.kind == ContextKind::None) {
         return noContext("sluice_begin_frame");
     }
     const GlErrorScope errors;
@@ -377,7 +399,7 @@ Status Session::beginFrame(const float* view, const float* projection, double ti
         owed_ = 0.0;
         pending_ = true;
     }
-    return camera;
+    return {};
 }
 
 }  // namespace sluice::host

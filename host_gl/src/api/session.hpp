@@ -78,6 +78,10 @@ class Session {
     [[nodiscard]] Status settle(const std::optional<Extent>& wanted);
     [[nodiscard]] Status start(const CurrentContext& context, const Extent& extent);
     [[nodiscard]] Status giveScene();
+    /// Keeps how a start ended, or what was tried to end it.
+    [[nodiscard]] Status started(Status status);
+    /// What a frame begins with: everything is there, and the fluid is asked to go on.
+    [[nodiscard]] Status flowOn();
     /// Lets go of the FluidHost, with or without GL.
     void drop();
     [[nodiscard]] Status draw();
@@ -116,8 +120,12 @@ class Session {
     std::unique_ptr<Trace> trace_;                ///< likewise; only with SluiceOptions::timings
     std::unique_ptr<FluidHost> host_;
     std::uint32_t contexts_ = 0;
-    CurrentContext tried_in_;              ///< the last start
-    std::optional<Error> start_error_;     ///< why there is none in the present context
+    CurrentContext tried_in_;  ///< the last start
+    /// Why there is none in the present context, or none with the scene that was asked for.
+    std::optional<Error> start_error_;
+    CurrentContext begun_in_;              ///< the frame
+    std::optional<Error> begin_error_;     ///< why it could not begin
+    bool began_active_ = false;            ///< there was fluid to be drawn then
     std::uint32_t tries_ = 0, to_go_ = 0;  ///< that failed since the last success; frames until the next
 
     std::optional<Matrix> view_, projection_;

@@ -19,6 +19,10 @@ namespace sluice::host {
 
 namespace {
 
+Error notBegun() {
+    return {SLUICE_NOT_READY, "sluice_end_frame", "the fluid was set or switched on within the frame", ""};
+}
+
 constexpr std::size_t kMostTold = 16;  // messages between two good frames: a text that counts would fill the log
 
 }  // namespace
@@ -100,6 +104,14 @@ Result<Extent> Session::extentOf(const Target& target, const CurrentContext& pre
 }
 
 Status Session::draw() {
+    if (!began_active_) {
+        return notBegun();
+    }
+    const CurrentContext present = currentContext();
+    // A frame that could not begin ends with the reason that it had.
+    if (begin_error_ && present == begun_in_) {
+        return *begin_error_;
+    }
     if (!view_ || !projection_) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame", "there is no camera",
                      "give matrices to sluice_begin_frame or sluice_set_camera"};
@@ -107,7 +119,6 @@ Status Session::draw() {
     if (Status status = notThere(); !status) {
         return status;
     }
-    const CurrentContext present = currentContext();
     if (present.kind == ContextKind::None || !(present == context_) || host_ == nullptr) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_end_frame",
                      "the context is not the one that sluice_begin_frame was called in", "call both in the same"};
@@ -127,8 +138,12 @@ Status Session::draw() {
         return size.error();
     }
     const Extent extent = size.value();
+    const std::uint32_t contexts = contexts_;
     if (Status status = settle(extent); !status) {
         return status;
+    }
+    if (value_ == 0 && contexts_ == contexts) {
+        return notBegun();
     }
     if (value_ == 0) {
         return Error{SLUICE_ERROR_DEVICE_LOST, "sluice_end_frame", "the context was lost within the frame", ""};
@@ -185,10 +200,13 @@ Status Session::setWater(const SluiceWater* asked) {
     owed_ = 0.0;
     pending_ = false;
     if (!reachable()) {
+        to_go_ = 0;
         return {};  // the next frame's context gets it
     }
     const GlErrorScope errors;
-    Status status = host_->setSimulation(asked != nullptr ? &simulation : nullptr);
+    // After a scene that was refused as a whole, all of it is given again.
+    Status status = start_error_ && asked != nullptr ? started(giveScene())
+                                                     : host_->setSimulation(asked != nullptr ? &simulation : nullptr);
     if (!status &&
         (status.error().code == SLUICE_ERROR_INVALID_ARGUMENT || status.error().code == SLUICE_ERROR_UNSUPPORTED)) {
         // Another context's renderer would refuse it, too.
@@ -206,13 +224,14 @@ Status Session::setFlow(const SluiceFlow* asked) {
         return Error{SLUICE_ERROR_INVALID_ARGUMENT, "sluice_set_flow", "there is no fluid", "call sluice_set_water"};
     }
     const SluiceFlow known = readAbiStruct(*asked);
-    if (reachable()) {
+    if (reachable() && !start_error_) {
         const GlErrorScope errors;
         if (Status status = host_->setFlow(known); !status) {
             return status;
         }
     }
     flow_ = flowAfter(flow_, known);
+    to_go_ = 0;
     return {};
 }
 
@@ -259,7 +278,7 @@ Status Session::setEnvironment(const SluiceEnvironment* asked) {
         return {};
     }
     const GlErrorScope errors;
-    return host_->setEnvironment(asked);
+    return start_error_ ? started(giveScene()) : host_->setEnvironment(asked);
 }
 
 Result<SluiceStatistics> Session::statistics() {
