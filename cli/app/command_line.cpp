@@ -160,8 +160,12 @@ void addRender(Line& line) {
         ->excludes(no_fluid)
         ->type_name("KIND@FRAME");
     addVerbosity(c, line);
-    c.footer(std::string("A particle file may be .pos, .ply or .bgeo. Every input is checked before the\n"
-                         "first file is written, and files appear whole or not at all.\n\n") +
+    c.footer(std::string("A particle file may be .pos, .ply or .bgeo; of a scene with bodies, its\n"
+                         ".bodies.json lies beside it, as simulate writes it. A scene that names none and\n"
+                         "has fluid is simulated while its frames are drawn; it may begin with a file,\n"
+                         "simulation.start, and collide with the depth of its own pictures. Every input is\n"
+                         "checked before the first file is written, and files appear whole or not at all.\n"
+                         "\n") +
              exitCodesHelp());
     c.callback([&line] { line.run = [&line] { return render(line.render); }; });
 }

@@ -35,7 +35,12 @@ void addSimulateCommand(CLI::App& app, SimulateOptions& options, int& verbosity,
     c.add_flag("--validation", o.validation, "run under the Vulkan validation layer; exit\ncode 3 if it speaks");
     c.add_flag("-v,--verbose", verbosity, "more log lines on stderr; twice for all of them");
     c.footer(
-        "Frame 1 is the start. The same scene and seed give the same bits on the same\n"
+        "Frame 1 is the start: the scene's boxes of fluid, and the particles of the file\n"
+        "that its simulation.start names (.pos, .ply or .bgeo). With \"collide\": \"depth\"\n"
+        "the fluid meets what an EXR of depths shows (simulation.depth.path), as render\n"
+        "--layers writes one. Bodies are written beside the particles of each frame,\n"
+        "dam_0001.bodies.json beside dam_0001.pos.\n"
+        "The same scene and seed give the same bits on the same\n"
         "device; the replay hash at the end tells whether they did.\n"
         "Example:\n  sluice simulate samples/dam_break.json -o dam_####.pos --frames 1..30\n\n"
         "Exit codes of simulate:\n"

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "app/log.hpp"
 #include "app/looks.hpp"
 #include "app/simulate_setup.hpp"
 #include "sluice/particles/particles.hpp"
@@ -49,6 +50,23 @@ Status checkPlaces(const scene::Simulation& simulation, const simulator::Setup& 
     return {};
 }
 
+/// What the file cannot say, and the simulation therefore does not begin with.
+void warnOfSilence(const scene::Simulation& simulation, const particles::ParticleSet& set) {
+    if (simulation.fluids.size() > 1 && set.colour.empty()) {
+        log(SLUICE_LOG_WARNING,
+            fmt::format(
+                "{}: has no colours, so that all of its particles are of the first of /simulation/fluids, which "
+                "are {} (begin with the .ply or .bgeo that sluice simulate writes of them)",
+                simulation.start, simulation.fluids.size()));
+    }
+    if (!simulation.bodies.empty()) {
+        log(SLUICE_LOG_WARNING,
+            fmt::format("{}: holds particles alone, so that /simulation/bodies begin where the scene has them (their "
+                        "places in a frame of sluice simulate are in the .bodies.json beside it)",
+                        simulation.start));
+    }
+}
+
 Result<simulator::Particles> readStart(const scene::Simulation& simulation, const simulator::Setup& setup) {
     Result<particles::ParticleSet> read = particles::load(simulation.start, simulation.radius);
     if (!read) {
@@ -69,6 +87,7 @@ Result<simulator::Particles> readStart(const scene::Simulation& simulation, cons
     if (Status status = checkPlaces(simulation, setup, set); !status) {
         return status.error();
     }
+    warnOfSilence(simulation, set);
     simulator::Particles start;
     if (!simulation.fluids.empty()) {
         start.fluid.resize(set.count());

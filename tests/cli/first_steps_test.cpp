@@ -65,6 +65,9 @@ TEST_F(FirstSteps, HelpPagesFitATerminalAndShowNothingOfTheLibraryBeneath) {
             EXPECT_THAT(line, SizeIs(testing::Le(80))) << command;
         }
     }
+    EXPECT_THAT(run("simulate --help").out,
+                AllOf(HasSubstr("simulation.start"), HasSubstr("simulation.depth.path"), HasSubstr(".bodies.json")));
+    EXPECT_THAT(run("render --help").out, AllOf(HasSubstr("simulation.start"), HasSubstr(".bodies.json")));
 }
 
 TEST_F(FirstSteps, AMistypedCommandIsOneLineWithTheWordAndTheNearestCommand) {

@@ -151,6 +151,22 @@ TEST_F(Live, AFileToBeginWithGivesThePicturesOfTheSimulatedFilesAndWhatIsWrongWi
         EXPECT_TRUE(read(std::string("live_") + number) == read(std::string("file_") + number)) << number;
         EXPECT_TRUE(read(std::string("alone_") + number) == read(std::string("file_") + number)) << number;
     }
+    // What the file cannot say is said, by both commands.
+    ASSERT_EQ(run("convert cold_03.ply cold_03.pos").code, 0);
+    nlohmann::json silent = scene;
+    silent["simulation"]["start"] = "cold_03.pos";
+    silent["simulation"]["bodies"] = nlohmann::json::parse(
+        R"([{"shape": "sphere", "centre": [0.8, 1.1, 0], "half": [0.1, 0.1, 0.1], "turn_degrees": 0, "density": 1,
+             "velocity": [0, 0, 0], "spin": [0, 0, 0], "path": []}])");
+    silent["simulation"]["fluids"] = nlohmann::json::parse(
+        R"([{"density": 1, "viscosity": 0, "tension": 0, "adhesion": 0, "colour": [0, 0, 1]},
+            {"density": 1, "viscosity": 0, "tension": 0, "adhesion": 0, "colour": [1, 0, 0]}])");
+    write("silent.json", silent.dump());
+    const Outcome said = run("simulate silent.json -o silent.ply --frames 1..1");
+    EXPECT_EQ(said.code, 0);
+    EXPECT_THAT(said.err, AllOf(HasSubstr("cold_03.pos: has no colours, so that all of its particles are of the first"),
+                                HasSubstr("cold_03.pos: holds particles alone, so that /simulation/bodies begin")));
+    EXPECT_EQ(run("render silent.json -o silent.png --frames 1..1").err, said.err);
     // By both commands, before anything is written.
     const auto refused = [&] {
         write("wrong.json", scene.dump());
