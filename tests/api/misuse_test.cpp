@@ -69,6 +69,20 @@ TEST_F(Misuse, ReversedDepthIsRefusedByName) {
     EXPECT_EQ(frameWith(beyond), SLUICE_OK) << sluice_last_error(fluid_.get());
 }
 
+TEST_F(Misuse, MatricesInRowOrderAreRefusedByName) {
+    begin();
+    const Camera eye = camera();
+    Camera rows{};
+    for (std::size_t i = 0; i < 16; ++i) {
+        rows.view.at(i) = eye.view.at(i % 4 * 4 + i / 4);
+        rows.projection.at(i) = eye.projection.at(i % 4 * 4 + i / 4);
+    }
+    (void)sluice_begin_frame(fluid_.get(), rows.view.data(), rows.projection.data(), 1.0);
+    EXPECT_EQ(sluice_end_frame(fluid_.get()), SLUICE_ERROR_INVALID_ARGUMENT);
+    expectTold("camera: elements 3, 7, 11 and 15 of its view are");
+    EXPECT_EQ(frameWith(eye.projection), SLUICE_OK) << sluice_last_error(fluid_.get());
+}
+
 /// Walls by what the engine's depth says of them: near the eye on the left, behind the fluid on the right.
 std::vector<std::uint8_t> pictureThrough(Sluice* fluid, float low, float high) {
     const Camera eye = camera();

@@ -15,6 +15,8 @@ namespace {
 
 /// Stands for an infinite far plane; what the renderer does with the number is to bound its own values.
 constexpr double kFarthest = 1e6;
+/// What may be left in the last row of a view that was multiplied, or taken out of a product, in 32-bit floats.
+constexpr float kFlat = 1e-2F;
 
 Error wrong(std::string detail, const char* remedy) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, "camera", std::move(detail), remedy};
@@ -37,6 +39,13 @@ Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, cons
     const auto finite = [](float value) { return std::isfinite(value); };
     if (!std::all_of(view.begin(), view.end(), finite) || !std::all_of(projection.begin(), projection.end(), finite)) {
         return wrong("a number of its matrices is not finite", "");
+    }
+    // A transposed projection is a possible one, with a near of its own; a transposed view is none.
+    const std::array row{view[3], view[7], view[11], view[15] - 1.0F};
+    if (std::any_of(row.begin(), row.end(), [](float value) { return std::abs(value) > kFlat; })) {
+        return wrong(fmt::format("elements 3, 7, 11 and 15 of its view are {}, {}, {} and {}, expected 0, 0, 0 and 1",
+                                 view[3], view[7], view[11], view[15]),
+                     "give both matrices in column order, as OpenGL has them in memory: transpose them");
     }
     SluiceCamera camera{};
     std::copy(view.begin(), view.end(), camera.view);
