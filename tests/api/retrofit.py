@@ -258,4 +258,5 @@ def main():
     print(f"retrofit: {lines} lines of engine, {changed} changed: {pixels} pixels of water, all others as they were")
 
 
-main()
+if __name__ == "__main__":
+    main()
