@@ -280,6 +280,61 @@ TEST_F(RecoveryTest, ANewRendererBeginsWithWhatTheSimulationWasResetTo) {
     complaints_.clear();
 }
 
+TEST_F(RecoveryTest, AChangedFlowGoesToTheNewRendererWithItsSimulation) {
+    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
+    const std::vector<float> position{0.0F, 0.1F, 0.0F};
+    auto simulation = sized<SluiceSimulation>();
+    simulation.frames_in_flight = simulation.iterations = simulation.particle_count = 1;
+    simulation.radius = 0.05F;
+    simulation.relaxation = 0.1F;
+    simulation.cfl = 0.4F;
+    simulation.longest_step = 0.01;
+    std::fill_n(&simulation.low[0], 3, -1.0F);
+    std::fill_n(&simulation.high[0], 3, 1.0F);
+    simulation.position = position.data();
+    ASSERT_TRUE(host_->setSimulation(&simulation));
+    auto flow = sized<SluiceFlow>();
+    flow.iterations = 1;
+    const auto loseIt = [this] {
+        control_->lose_submit = kAnyFrame;
+        EXPECT_EQ(run(1), "-");
+        control_->lose_submit = 0;
+        control_->flow_gravity = 0.0F;
+    };
+    // Each try comes twice as many frames after the one before, and the fourth is the last here.
+    const auto nextOne = [this] { EXPECT_THAT(run(9), ::testing::EndsWith("f")); };
+    flow.gravity[0] = 2.0F;
+    ASSERT_TRUE(host_->setFlow(flow));
+    EXPECT_EQ(control_->flow_gravity, 2.0F);
+    loseIt();
+    nextOne();
+    EXPECT_EQ(control_->flow_gravity, 2.0F) << "what was set before";
+    loseIt();
+    flow.gravity[0] = 3.0F;
+    ASSERT_TRUE(host_->setFlow(flow)) << "given while there is no renderer";
+    EXPECT_EQ(control_->flow_gravity, 0.0F);
+    nextOne();
+    EXPECT_EQ(control_->flow_gravity, 3.0F);
+    complaints_.clear();
+    // One that only the new renderer can refuse is dropped, and said to be; the next one is taken.
+    loseIt();
+    flow.gravity[0] = control_->refuses_flow_of = 4.0F;
+    ASSERT_TRUE(host_->setFlow(flow));
+    nextOne();
+    EXPECT_EQ(control_->flow_gravity, 0.0F);
+    EXPECT_THAT(complaints_, Contains(HasSubstr("flow set last: dropped")));
+    EXPECT_EQ(host_->setFlow(flow).error().code, SLUICE_ERROR_INVALID_ARGUMENT);
+    control_->refuses_flow_of = 0.0F;
+    EXPECT_TRUE(host_->setFlow(flow));
+    EXPECT_EQ(control_->flow_gravity, 4.0F);
+    // Another simulation begins with its own.
+    ASSERT_TRUE(host_->setSimulation(&simulation));
+    loseIt();
+    nextOne();
+    EXPECT_EQ(control_->flow_gravity, 0.0F);
+    complaints_.clear();
+}
+
 TEST_F(RecoveryTest, AFaultOfTheOrderCostsTwoFramesAndNotAllLater) {
     FluidHostConfig wanted = recovering(SLUICE_TIMELINE_FINISH);
     wanted.fault = FaultPlan{FaultKind::WrongValue, 3};

@@ -196,6 +196,16 @@ TEST(SeenDepths, EachValueHasTheDepthOfAFrameThatIsKnownByNumber) {
     EXPECT_EQ(depths.at(7).buffer, fifth);
 }
 
+TEST(SeenDepths, ADepthThatTheDeviceCannotBindIsRefusedBeforeAnythingIsMade) {
+    Device device;  // which could make nothing
+    device.properties.limits.maxStorageBufferRange = 1024;
+    SeenDepths depths(1);
+    const auto made = depths.room(device, 1025);
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, SLUICE_ERROR_UNSUPPORTED);
+    EXPECT_NE(made.error().message().find("1025 bytes, this device binds at most 1024"), std::string::npos);
+}
+
 TEST_F(LiveFluid, WaitsForNoDepthOfAValueThatCanBeDrawnNoMore) {
     Block block;
     block.simulation.depth_scale = 2;

@@ -23,6 +23,12 @@ std::uint64_t SeenDepths::sourceOf(std::uint64_t value) const {
 }
 
 Result<DepthRoom> SeenDepths::room(const Device& device, VkDeviceSize bytes) {
+    const VkDeviceSize most = device.properties.limits.maxStorageBufferRange;
+    if (bytes > most) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "captured depth",
+                     fmt::format("it needs a buffer of {} bytes, this device binds at most {}", bytes, most),
+                     "raise simulation.depth_scale, or draw smaller frames"};
+    }
     const auto idle = [](const auto& buffer) { return buffer.use_count() == 1; };
     for (const auto& buffer : buffers_) {
         if (idle(buffer) && buffer->memory.size() == bytes) {

@@ -201,7 +201,8 @@ SluiceResult submitFrame(SluiceRenderer* renderer, const SluiceFrame* frame, Slu
         (void)real->submit_frame(renderer, &refused, nullptr);
         return SLUICE_ERROR_INTERNAL;
     }
-    if (frame->frame == sluice_shim_control.lose_submit) {
+    if (frame->frame == sluice_shim_control.lose_submit ||
+        sluice_shim_control.lose_submit == sluice::host::test::kAnyFrame) {
         return refuse(error, SLUICE_ERROR_DEVICE_LOST, "the shim has lost its device");
     }
     if (frame->frame == sluice_shim_control.hang_frame) {
@@ -282,6 +283,14 @@ SluiceResult setParticles(SluiceRenderer* renderer, const SluiceParticles* parti
     return real->set_particles(renderer, particles, error);
 }
 
+SluiceResult setFlow(SluiceRenderer* renderer, const SluiceFlow* flow, SluiceError* error) {
+    if (flow->gravity[0] != 0.0F && flow->gravity[0] == sluice_shim_control.refuses_flow_of) {
+        return refuse(error, SLUICE_ERROR_INVALID_ARGUMENT, "the shim takes no such flow");
+    }
+    sluice_shim_control.flow_gravity = flow->gravity[0];
+    return real->set_flow(renderer, flow, error);
+}
+
 SluiceResult setEnvironment(SluiceRenderer* renderer, const SluiceEnvironment* environment, SluiceError* error) {
     if (breaks(Entry::SetEnvironment, error)) {
         return SLUICE_ERROR_INTERNAL;
@@ -333,6 +342,7 @@ extern "C" SLUICE_SHIM_EXPORT const SluiceRendererApi* sluice_renderer_entry(std
     table.resize = resize;
     table.set_particles = setParticles;
     table.set_environment = setEnvironment;
+    table.set_flow = setFlow;
     table.submit_frame = submitFrame;
     table.poll = poll;
     table.timeline_wait = timelineWait;

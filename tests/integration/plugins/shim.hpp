@@ -47,11 +47,13 @@ enum class StatsLie : std::uint8_t { None, PassCount, EndlessNames };
 
 constexpr const char* kShimControlSymbol = "sluice_shim_control";
 
+inline constexpr std::uint64_t kAnyFrame = UINT64_MAX;
+
 /// Everything zero: the real renderer, unchanged. The GL thread alone touches it.
 struct ShimControl {
     std::uint32_t lies = 0;         ///< bit per SluiceTimelineKind: claimed without semaphores, bridged underneath
     std::uint32_t refuses = 0;      ///< bit per SluiceTimelineKind: create fails when it is asked for
-    std::uint64_t lose_submit = 0;  ///< submit_frame of this frame says that the device is lost
+    std::uint64_t lose_submit = 0;  ///< submit_frame of this frame, or of kAnyFrame, says that the device is lost
     std::uint64_t lose_poll = 0;    ///< poll of this frame says so
     std::uint64_t fail_from = 0, fail_to = 0;          ///< submit_frame of these frames fails inside the real renderer
     std::uint64_t stall_value = 0;                     ///< timeline_wait for this value does not see it ...
@@ -60,6 +62,7 @@ struct ShimControl {
     std::uint32_t fail_resizes = 0;            ///< so many calls of resize fail in the middle: there are no images
     std::uint32_t refuses_particles_of = 0;    ///< set_particles of so many is refused as too many
     std::uint32_t refuses_environment_of = 0;  ///< set_environment of a map so wide likewise
+    float refuses_flow_of = 0.0F;              ///< set_flow with this in its gravity's first component likewise
     std::uint64_t hang_frame = 0;              ///< submit_frame of this frame returns when `release` says so
     std::atomic<bool> release{false};
     Entry broken{};        ///< this function fails, with a message that has no end
@@ -74,6 +77,7 @@ struct ShimControl {
     std::uint32_t particles = 0;              ///< count of the last set_particles
     float first_coordinate = 0.0F;            ///< its first coordinate
     std::uint32_t environment_width = 0;      ///< of the last set_environment
+    float flow_gravity = 0.0F;                ///< its first component, of the last set_flow
     std::uint32_t attempt_count = 0;          ///< calls of create
     std::array<std::uint32_t, 8> attempts{};  ///< SluiceTimelineKind of each
     std::array<int, 32> lost{};               ///< of LostDescriptor, for the test to close
