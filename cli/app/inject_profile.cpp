@@ -81,7 +81,9 @@ void readWater(scene::ObjectReader& from, inject::WaterPlan& water) {
     from.choice("place", place, kPlaces);
     water.in_view = place == 0;
     from.number("units_per_metre", water.units_per_metre, scene::kLength);
-    from.numbers("up", water.up, scene::kAnyLength);
+    constexpr float kAbsent = std::numeric_limits<float>::infinity();
+    inject::Triple up{kAbsent, 0, 0};
+    from.numbers("up", up, scene::kAnyLength);
     from.number("radius", water.radius, scene::Range{0.001, 10.0});
     from.numbers("low", water.low, scene::kAnyLength);
     from.numbers("high", water.high, scene::kAnyLength);
@@ -99,8 +101,10 @@ void readWater(scene::ObjectReader& from, inject::WaterPlan& water) {
     from.integer("max_particles", water.max_particles, 0, 1'000'000);
     from.integer("depth_scale", water.depth_scale, 0, 8);
     from.number("depth_thickness", water.depth_thickness, scene::Range{0.0, 10.0});
-    if (std::all_of(water.up.begin(), water.up.end(), [](float value) { return value == 0.0F; })) {
+    if (up == inject::Triple{}) {
         from.fail("up", "a direction", "[0, 0, 0]");
+    } else if (up[0] != kAbsent) {
+        water.up = up;
     }
 }
 

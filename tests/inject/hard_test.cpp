@@ -103,6 +103,16 @@ TEST_F(HardInjectTest, SwapsWithFluidLeakNothingHereAndNothingInTheRenderer) {
     EXPECT_THAT(with.out, HasSubstr("fluid      59 frames, 0 without"));
 }
 
+TEST_F(HardInjectTest, AFluidThatHasFailedBeginsAgain) {
+    // Particles of a millimetre at a hundred metres a second: half a second is more steps than there may be.
+    write("wild.json", R"({"water": {"radius": 0.001, "low": [-0.006, 0, -0.004], "high": [0.006, 0.012, 0.004],
+        "blocks": [{"low": [-0.006, 0, -0.004], "high": [0, 0.006, 0.004], "velocity": [100, 0, 0]}]}})");
+    const Outcome with = injectedHard("--profile wild.json --step 0.5 --report --json", "quiet size=16x16 frames=18");
+    EXPECT_EQ(with.code, 0) << with.err;
+    EXPECT_THAT(with.err, HasSubstr("sluice inject: the fluid begins again\n"));
+    EXPECT_THAT(with.out, AllOf(HasSubstr("\"restarts\": 1"), HasSubstr("\"frames_without\": 0")));
+}
+
 TEST_F(HardInjectTest, WhatChangesUnseenIsAskedFor) {
     const auto watched = [this](const std::string& words) { return injectedHard("--off --report", words).out; };
     EXPECT_THAT(watched("attributes"), HasSubstr("fluid before it in 4 of 6 frames")) << "the matrix mode came back";

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "matrices.hpp"
 
 namespace sluice::inject::test {
@@ -75,6 +77,36 @@ TEST(Placement, AProgramWhoseUpIsZGetsItsWaterUprightToo) {
     const FoundCamera camera = cameraWith(look_along_y);
     const Matrix view = Placement(plan, camera, 10.0).camera(camera).view;
     EXPECT_NEAR(view[5], 1, 1e-5F);
+}
+
+Matrix pitch(double degrees) {  // about +x
+    const double a = degrees * 3.14159265358979 / 180.0;
+    Matrix m = kIdentity;
+    m[5] = m[10] = static_cast<float>(std::cos(a));
+    m[6] = static_cast<float>(std::sin(a));
+    m[9] = -m[6];
+    return m;
+}
+
+TEST(Placement, WhichWayIsUpIsSeenFromHowTheEyeStands) {
+    const Triple y{0, 1, 0};
+    const Triple z{0, 0, 1};
+    Matrix spin = kIdentity;  // about +z
+    spin[0] = spin[5] = 0.8F;
+    spin[1] = 0.6F;
+    spin[4] = -0.6F;
+    EXPECT_EQ(upOf(kIdentity), y);
+    EXPECT_EQ(upOf(product(pitch(30), turn(50))), y) << "from above, over a ground of x and z";
+    EXPECT_EQ(upOf(product(pitch(40), turn(180))), y) << "straight along z";
+    EXPECT_EQ(upOf(product(pitch(-70), spin)), z) << "from above, over a ground of x and y";
+    EXPECT_EQ(upOf(product(pitch(-30), spin)), z);
+    EXPECT_EQ(upOf(pitch(-70)), z) << "straight along y";
+    EXPECT_EQ(upOf(spin), y) << "a picture that turns in its plane";
+    const FoundCamera camera = cameraWith(product(pitch(-90), spin));
+    WaterPlan plan;
+    EXPECT_EQ(Placement(plan, camera, 10.0).up(), z);
+    plan.up = y;
+    EXPECT_EQ(Placement(plan, camera, 10.0).up(), y) << "as the profile says";
 }
 
 }  // namespace

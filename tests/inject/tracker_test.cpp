@@ -443,6 +443,32 @@ TEST(Refusal, NamesReversedDepthOneEyeOfStereoAndTheMissingCamera) {
     EXPECT_EQ(noCamera(301, flat), "") << "it is said once";
 }
 
+// Who never says glMatrixMode has gluPerspective, glTranslatef and the turn of the object in one matrix.
+TEST(FrameTracker, APerspectiveInTheModelViewMatrixIsOneToo) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    const Matrix view = product(kLens, translation(0, 0, -5));
+    for (int frame = 0; frame < 3; ++frame) {
+        fixed.model(ortho());  // stars behind it
+        EXPECT_FALSE(fixed.draw(4));
+        fixed.model(product(view, turn(30)));
+        EXPECT_FALSE(fixed.draw(100));
+        fixed.model(product(view, turn(60)));
+        EXPECT_FALSE(fixed.draw(100));
+        fixed.model(ortho());  // and words before it
+        EXPECT_EQ(fixed.draw(4), frame > 0) << frame;
+        tracker.endFrame();
+    }
+    const std::optional<FoundCamera> camera = tracker.camera();
+    ASSERT_TRUE(camera);
+    EXPECT_EQ(camera->source, "perspective in the model-view matrix");
+    EXPECT_NEAR(camera->lens.near_plane, 0.1, 1e-3);
+    EXPECT_NEAR(camera->view[14], -5, 1e-3);
+    EXPECT_NEAR(camera->view[0], turn(30)[0], 1e-4);
+    EXPECT_EQ(tracker.lastFrame().lenses.size(), 1U);
+    EXPECT_EQ(tracker.lastFrame().flat_draws, 2U);
+}
+
 TEST(FrameTracker, AFrameWithoutPerspectiveKeepsTheLastCamera) {
     FrameTracker tracker;
     Fixed fixed(tracker);

@@ -62,6 +62,20 @@ constexpr double kShare = 0.6;  // of half the picture that the box takes
 
 }  // namespace
 
+Triple upOf(const Matrix& view) {
+    constexpr double kLevel = 0.02;   // sine of a roll that is none
+    constexpr double kRolled = 0.15;  // and of one that is beyond doubt
+    constexpr std::size_t kY = 4;     // columns: where the world's axes point for the eye
+    constexpr std::size_t kZ = 8;
+    const double roll_y = std::abs(double{view[kY]});
+    const double roll_z = std::abs(double{view[kZ]});
+    const auto up_y = double{view[kY + 1]};
+    const auto up_z = double{view[kZ + 1]};
+    const bool only_z = roll_y > kRolled;
+    return roll_z < kLevel && up_z > 0.1 && (only_z || (roll_y < kLevel && up_z > up_y)) ? Triple{0, 0, 1}
+                                                                                         : Triple{0, 1, 0};
+}
+
 Placement::Placement(const WaterPlan& plan, const FoundCamera& first, double distance) {
     const Lens& lens = first.lens;
     const double seen =
@@ -72,11 +86,12 @@ Placement::Placement(const WaterPlan& plan, const FoundCamera& first, double dis
     // As far away as the box must be to take that share of the picture, in metres, over the same in units.
     const double fitting = half / kShare * std::max(lens.scale_x, lens.scale_y);
     metres_ = plan.units_per_metre > 0 ? 1.0 / double{plan.units_per_metre} : fitting / seen;
+    up_ = plan.up.value_or(upOf(first.view));
     if (!plan.in_view) {
         return;
     }
     const Matrix view = inMetres(first.view, metres_);
-    const Vector up_in_world = normalised(inDouble(plan.up));
+    const Vector up_in_world = normalised(inDouble(up_));
     Vector up{};
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t k = 0; k < 3; ++k) {

@@ -55,6 +55,8 @@ Json waterJson(const WaterReport& water) {
             {"renderers", water.renderers},
             {"device", water.device},
             {"units_per_metre", water.units_per_metre},
+            {"up", water.up},
+            {"restarts", water.restarts},
             {"last_error", water.last_error},
             {"seconds",
              {{"capture", water.capture_s},

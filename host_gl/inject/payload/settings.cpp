@@ -103,7 +103,9 @@ void readWater(std::string_view key, Words& line, WaterPlan& water) {
     } else if (key == "water.units") {
         line.read(water.units_per_metre);
     } else if (key == "water.up") {
-        line.read(water.up);
+        Triple up{};
+        line.read(up);
+        water.up = up;
     } else if (key == "water.radius") {
         line.read(water.radius);
     } else if (key == "water.low") {
@@ -167,9 +169,10 @@ void readLine(std::string_view key, Words& line, Settings& out) {
 std::string printWater(const WaterPlan& water) {
     std::string text;
     text += water.in_view ? "" : "water.world\n";
-    text += fmt::format("water.units {}\nwater.up {}\nwater.radius {}\nwater.low {}\nwater.high {}\nwater.gravity {}\n",
-                        water.units_per_metre, fmt::join(water.up, " "), water.radius, fmt::join(water.low, " "),
-                        fmt::join(water.high, " "), fmt::join(water.gravity, " "));
+    text += water.up ? fmt::format("water.up {}\n", fmt::join(*water.up, " ")) : "";
+    text += fmt::format("water.units {}\nwater.radius {}\nwater.low {}\nwater.high {}\nwater.gravity {}\n",
+                        water.units_per_metre, water.radius, fmt::join(water.low, " "), fmt::join(water.high, " "),
+                        fmt::join(water.gravity, " "));
     text += fmt::format("water.solver {} {} {}\n", water.iterations, water.viscosity, water.vorticity);
     for (const WaterBlock& block : water.blocks) {
         text += fmt::format("water.block {} {} {}\n", fmt::join(block.low, " "), fmt::join(block.high, " "),

@@ -24,7 +24,7 @@ struct WaterBlock {
 struct WaterPlan {
     bool in_view = true;  ///< placed before the eye of the first frame that has fluid; else in the program's world
     float units_per_metre = 0;  ///< of the program; 0: from the distance of what is seen
-    Triple up{0, 1, 0};         ///< of the program's world
+    std::optional<Triple> up;   ///< of the program's world; none: +y or +z, as the first eye is level
     float radius = 0.05F;       ///< of a particle
     Triple low{-1, 0, -1}, high{1, 2, 1};
     Triple gravity{0, -9.81F, 0};

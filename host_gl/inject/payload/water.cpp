@@ -93,6 +93,9 @@ WaterBlock columnOf(const WaterPlan& plan) {
     return block;
 }
 
+constexpr std::uint32_t kFramesBetweenLooks = 16;  // each asks the renderer's process
+constexpr std::uint32_t kMostRestarts = 4;
+
 double now() {
     return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
@@ -127,10 +130,12 @@ class LibraryWater final : public Water {
         if (settings.sky) {
             (void)api_.setSky(fluid_, &*settings.sky);
         }
-        return setWater(settings.water);
+        plan_ = settings.water;
+        return setWater(plan_);
     }
 
     Status begin(double time) override {
+        startAgainIfItStands();
         const double start = now();
         const SluiceResult result = api_.beginFrame(fluid_, view_.data(), projection_.data(), time);
         begun_ = true;
@@ -180,6 +185,8 @@ class LibraryWater final : public Water {
         }
         report_.last_error = last_error_;
         report_.units_per_metre = placement_.unitsPerMetre();
+        report_.up = placement_.up();
+        report_.restarts = std::min(restarts_, kMostRestarts);
         return report_;
     }
 
@@ -187,6 +194,26 @@ class LibraryWater final : public Water {
     Status failure(SluiceResult result, const Sluice* of) {
         last_error_ = api_.lastError(of);
         return Error{static_cast<SluiceResultCode>(result), "", last_error_, ""};
+    }
+
+    /// After a step that failed for good (what is solid may leap through the fluid in a program that nobody knows) all
+    /// that there is stands still for as long as the program runs.
+    /// Between two frames: a frame that has begun has no other water.
+    void startAgainIfItStands() {
+        SluiceStatistics statistics{};
+        statistics.struct_size = sizeof(statistics);
+        if (++frames_ % kFramesBetweenLooks != 0 || restarts_ > kMostRestarts ||
+            api_.statistics(fluid_, &statistics) != SLUICE_OK || statistics.simulation_failed == 0) {
+            return;
+        }
+        ++restarts_;
+        if (restarts_ > kMostRestarts) {
+            (void)std::fprintf(stderr, "sluice inject: the fluid stands still from here on: it has failed %u times\n",
+                               restarts_);
+            return;
+        }
+        (void)std::fputs("sluice inject: the fluid begins again\n", stderr);
+        (void)setWater(plan_);  // the next frame says what is wrong with it
     }
 
     Status setWater(const WaterPlan& plan) {
@@ -227,6 +254,8 @@ class LibraryWater final : public Water {
     Matrix view_ = kIdentity, projection_ = kIdentity;
     WaterReport report_;
     std::string last_error_;
+    WaterPlan plan_;
+    std::uint32_t frames_ = 0, restarts_ = 0;
     bool begun_ = false;
     bool started_ = false;  ///< there has been a renderer
 };

@@ -2,6 +2,8 @@
 // The fluid of one context: libsluice.so (sluice/sluice.h), loaded when it is first needed.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,6 +20,8 @@ struct WaterReport {
     std::uint32_t particles = 0, renderers = 0;
     std::string device, last_error;
     double units_per_metre = 0;
+    std::array<float, 3> up{};
+    std::uint32_t restarts = 0;  ///< of a simulation that had failed
     double capture_s = 0, hand_off_s = 0, fluid_s = 0, simulation_s = 0, composite_s = 0, whole_s = 0, begin_s = 0;
 };
 

@@ -25,6 +25,7 @@ void FrameTracker::matrixMode(bool projection, bool model_view) {
 
 void FrameTracker::matrixChanged() {
     if (!mode_projection_) {
+        model_view_dirty_ = model_view_dirty_ || (mode_model_view_ && !compiling_);
         return;
     }
     if (compiling_) {
@@ -102,13 +103,25 @@ const FrameTracker::ProgramCamera* FrameTracker::programCamera() const {
 }
 
 bool FrameTracker::wantsMatrices() const {
-    return fixed_dirty_ && !compiling_ && rules_.route != CameraRoute::Uniforms && programCamera() == nullptr;
+    const bool changed = fixed_dirty_ || (no_projection_ && model_view_dirty_);
+    return changed && !compiling_ && rules_.route != CameraRoute::Uniforms && programCamera() == nullptr;
 }
 
 void FrameTracker::fixedMatrices(const Matrix& projection, const Matrix& model_view) {
     fixed_dirty_ = lists_change_projection_;
+    model_view_dirty_ = false;
     model_view_ = model_view;
     fixed_ = readMatrix(projection, depth_);
+    // A program that never says glMatrixMode has gluPerspective in its model-view matrix: at each draw the two together
+    // are what counts.
+    no_projection_ = isIdentity(projection);
+    whole_ = false;
+    if (fixed_->shape == Shape::Flat) {
+        if (Reading both = readMatrix(product(projection, model_view), depth_); both.shape == Shape::Perspective) {
+            fixed_ = std::move(both);
+            whole_ = true;
+        }
+    }
     ++fixed_version_;
     reject(*fixed_);
 }
@@ -201,6 +214,15 @@ FrameTracker::Group& FrameTracker::groupOf(const Reading& reading) {
 
 void FrameTracker::viewOfFixed(Group& group) const {
     FoundCamera& camera = group.camera;
+    if (whole_) {
+        camera.source = "perspective in the model-view matrix";
+        camera.confidence = 0.8;
+        camera.view = group.reading.view;
+        camera.scale = group.reading.scale;
+        camera.view_source = "what stands right of the perspective in the first draw";
+        camera.view_confidence = 0.5;
+        return;
+    }
     const bool use_pushed =
         pushed_ && (rules_.view == ViewRule::Pushed || (rules_.view == ViewRule::Automatic && !isIdentity(*pushed_)));
     camera.source = group.reading.pure ? "projection matrix" : "projection matrix that holds the view, too";
@@ -273,7 +295,7 @@ bool FrameTracker::draw(std::uint32_t vertices) {
             viewOfFixed(group);
         }
     }
-    if (group.fixed && rules_.view == ViewRule::Automatic) {
+    if (group.fixed && !whole_ && rules_.view == ViewRule::Automatic) {
         countView(group, count);
     }
     if (group.matrix_seen != version) {

@@ -158,6 +158,9 @@ class FrameTracker {
     bool mode_projection_ = false, mode_model_view_ = true;
     bool fixed_dirty_ = true, compiling_ = false, lists_change_projection_ = false;
     bool lists_change_mode_ = false;
+    bool model_view_dirty_ = true;
+    bool no_projection_ = false;  ///< the projection is the identity
+    bool whole_ = false;          ///< `fixed_` is of both matrices together
     std::optional<Reading> fixed_;
     Matrix model_view_ = kIdentity;
     std::optional<Matrix> pushed_;
