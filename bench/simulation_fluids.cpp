@@ -75,7 +75,7 @@ void runCase(const sluice::vk::Device& device, const Case& what, double seconds)
     const double first = sumsOf(take(solver->read()), what.ratio).energy;
     double highest = 0.0;
     std::uint32_t steps = 0;
-    for (int tenth = 0; tenth < static_cast<int>(10.0 * seconds + 0.5); ++tenth) {
+    for (int tenth = 0; tenth < std::lround(10.0 * seconds); ++tenth) {
         const auto report = solver->advance(0.1, 1.0 / 60.0);
         if (!report.ok()) {
             fmt::print("| {} | {} | {} | no stable step | | | | | |\n", what.ratio, what.turn ? "turn" : "rest",
