@@ -113,6 +113,15 @@ TEST_F(HardInjectTest, AFluidThatHasFailedBeginsAgain) {
     EXPECT_THAT(with.out, AllOf(HasSubstr("\"restarts\": 1"), HasSubstr("\"frames_without\": 0")));
 }
 
+TEST_F(HardInjectTest, AProgramThatUsesNoDepthHasNoneInItsWay) {
+    const Outcome alone = bareHard("nodepth frames=6");
+    const Outcome with = withFluid("nodepth frames=6");
+    EXPECT_EQ(with.code, 0) << with.err;
+    const std::set<int> changed = changedFrames(alone, with);
+    EXPECT_EQ(changed.count(3) + changed.count(4) + changed.count(5), 3U) << with.out << with.err;
+    EXPECT_THAT(with.out, HasSubstr("compared before and after: no difference"));
+}
+
 TEST_F(HardInjectTest, WhatChangesUnseenIsAskedFor) {
     const auto watched = [this](const std::string& words) { return injectedHard("--off --report", words).out; };
     EXPECT_THAT(watched("attributes"), HasSubstr("fluid before it in 4 of 6 frames")) << "the matrix mode came back";

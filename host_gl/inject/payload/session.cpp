@@ -23,6 +23,7 @@ using Clock = std::chrono::steady_clock;
 constexpr std::uint64_t kAuditedFrames = 8;          // with fluid; a full snapshot asks OpenGL thousands of questions
 constexpr std::uint64_t kMostFailures = 120;         // frames in a row that may fail before a context is left alone
 constexpr std::uint64_t kMostFailuresElsewhere = 3;  // before a framebuffer of the program's own is
+constexpr std::uint64_t kFramesToTell = 2;           // after which a depth that was not used is not going to be
 constexpr std::uint32_t kMostPrograms = 512;         // names that are looked at once, when the payload comes late
 constexpr std::size_t kMostLeaks = 64;
 constexpr std::uint32_t kMostBlockReads = 64;  // matrices of a frame that are read out of buffers
@@ -163,6 +164,31 @@ bool Session::clipsZeroToOne() const {
     return mode == GL_ZERO_TO_ONE;
 }
 
+/// A program that neither tests nor clears a depth has one all the same, and nobody knows what is in it: the fluid
+/// would be behind that.
+void Session::clearUnusedDepth() {
+    GLint tested = GL_FALSE;
+    glGetIntegerv(GL_DEPTH_TEST, &tested);
+    uses_depth_ = uses_depth_ || tested != GL_FALSE || tracker_.target() != 0;
+    if (uses_depth_ || frames_ < kFramesToTell) {
+        return;
+    }
+    GLboolean written = GL_TRUE;
+    GLdouble value = 1.0;
+    const GLboolean cut = glIsEnabled(GL_SCISSOR_TEST);
+    glGetBooleanv(GL_DEPTH_WRITEMASK, &written);
+    glGetDoublev(GL_DEPTH_CLEAR_VALUE, &value);
+    glDisable(GL_SCISSOR_TEST);
+    glDepthMask(GL_TRUE);
+    glClearDepth(1.0);
+    glClear(GL_DEPTH_BUFFER_BIT);
+    glClearDepth(value);
+    glDepthMask(written);
+    if (cut != GL_FALSE) {
+        glEnable(GL_SCISSOR_TEST);
+    }
+}
+
 /// Once a frame: hardly a program changes its mind about it.
 void Session::askDepth() {
     std::array<float, 2> range{0.0F, 1.0F};
@@ -171,6 +197,9 @@ void Session::askDepth() {
     payload_.gl.getIntegerv(GL_DEPTH_FUNC, &function);
     tracker_.depth({clipsZeroToOne(), range[0] > range[1], function == GL_GREATER || function == GL_GEQUAL});
     depth_asked_ = true;
+    GLint tested = GL_FALSE;
+    payload_.gl.getIntegerv(GL_DEPTH_TEST, &tested);
+    uses_depth_ = uses_depth_ || tested != GL_FALSE;
 }
 
 void Session::forgetOldPrograms() {
@@ -261,6 +290,7 @@ void Session::beforeDraw(std::uint32_t vertices) {
 }
 
 void Session::beforeClear(std::uint32_t mask) {
+    uses_depth_ = uses_depth_ || (mask & GL_DEPTH_BUFFER_BIT) != 0;
     if (!ended_ && (mask & GL_DEPTH_BUFFER_BIT) != 0 && tracker_.clearsDepth()) {
         ++early_;
         composeNow();
@@ -422,6 +452,7 @@ Status Session::beginWater() {
 }
 
 Status Session::composeIn(const FoundCamera& camera) {
+    clearUnusedDepth();
     if (water_ == nullptr) {
         Result<std::unique_ptr<Water>> made =
             createWater(payload_.folder, payload_.settings, camera, seenDistance(camera));

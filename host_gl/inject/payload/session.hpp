@@ -96,6 +96,7 @@ class Session {
     void endWater();
     void readBlocks();
     void askDepth();
+    void clearUnusedDepth();
     [[nodiscard]] bool clipsZeroToOne() const;
     void forgetOldPrograms();
     void scanPrograms();
@@ -115,6 +116,7 @@ class Session {
     DrawableSize size_;
     std::map<std::pair<std::uint32_t, std::int32_t>, UniformName> names_;
     std::map<std::uint32_t, std::vector<BlockMatrix>> blocks_;  ///< by program
+    bool uses_depth_ = false;                                   ///< the program has cleared it, or tested against it
     bool has_blocks_ = false, blocks_changed_ = true, depth_asked_ = false;
     std::uint32_t block_reads_ = 0;  ///< in this frame
     std::map<std::string, std::uint64_t> routes_;

@@ -161,6 +161,15 @@ AROUND(glCallList, (uint32_t list), (list), draw(0), list_called())
 AROUND(glCallLists, (int32_t count, uint32_t type, const void* lists), (count, type, lists), draw(0), list_called())
 BEFORE(glClear, (uint32_t mask), (mask), clear(mask))
 
+/* Their buffer as glClear's bit; 0: it is no depth. */
+static uint32_t depth_bit(uint32_t buffer) {
+    return buffer == 0x1801 /* GL_DEPTH */ || buffer == 0x84F9 /* GL_DEPTH_STENCIL */ ? 0x0100U : 0U;
+}
+BEFORE(glClearBufferfv, (uint32_t buffer, int32_t which, const float* value), (buffer, which, value),
+       clear(depth_bit(buffer)))
+BEFORE(glClearBufferfi, (uint32_t buffer, int32_t which, float depth, int32_t stencil), (buffer, which, depth, stencil),
+       clear(depth_bit(buffer)))
+
 void glBegin(uint32_t mode) {
     typedef void (*Real)(uint32_t);
     const Real real = SHIM_REAL(glBegin, Real);

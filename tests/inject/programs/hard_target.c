@@ -4,13 +4,12 @@
  *
  * Usage: hard_target [WORD...]
  *   frames=N (6)   size=WxH (64x48)   quiet (no hashes)   bare (no bar over the scene)
- *   attributes  (the matrix mode comes back by glPopAttrib)   pushes  (one more than pops in each frame)
- *   framebuffer  (is deleted while it is bound)   kill=N  (after frame N, the renderer's process, if there is one)
- *   thread  (draws in another one, and destroys the context under it)   terminate  (the display in the middle, then
- * again) default  (the swap by dlsym(RTLD_DEFAULT))   epoxy  (binds framebuffers through libepoxy, from frame 3 on)
- *   pace=MS  (that long a pause between frames)   signals  (how many threads would take a signal)
- *   wait  (for all children at the end, of which it has one)   die  (by SIGKILL at the end, after it named the
- * renderer) */
+ *   nodepth  (neither cleared nor tested)   attributes  (the matrix mode comes back by glPopAttrib)   pushes  (one more
+ * than pops in each frame) framebuffer  (is deleted while it is bound)   kill=N  (after frame N, the renderer's
+ * process, if there is one) thread  (draws in another one, and destroys the context under it)   terminate  (the display
+ * in the middle, then again) default  (the swap by dlsym(RTLD_DEFAULT))   epoxy  (binds framebuffers through libepoxy,
+ * from frame 3 on) pace=MS  (that long a pause between frames)   signals  (how many threads would take a signal) wait
+ * (for all children at the end, of which it has one)   die  (by SIGKILL at the end, after it named the renderer) */
 #define _GNU_SOURCE
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
@@ -32,7 +31,8 @@
 
 static struct {
     int frames, width, height, kill, pace;
-    int quiet, bare, attributes, pushes, framebuffer, thread, terminate, by_default, epoxy, wait, die, signals;
+    int quiet, bare, attributes, pushes, no_depth, framebuffer, thread, terminate, by_default, epoxy, wait, die,
+        signals;
 } options = {.frames = 6, .width = 64, .height = 48, .kill = -1};
 
 static EGLDisplay display;
@@ -111,7 +111,9 @@ static void scene(int frame) {
     if (options.pushes) {
         glPushMatrix(); /* the stack overflows after 32 frames, which OpenGL takes no harm from */
     }
-    glEnable(GL_DEPTH_TEST);
+    if (!options.no_depth) {
+        glEnable(GL_DEPTH_TEST);
+    }
     glBegin(GL_QUADS);
     for (int i = 0; i < 4; ++i) {
         glColor3f(0.8F, 0.2F * (float)i, 0.4F);
@@ -161,7 +163,7 @@ static void draw(int frame) {
     }
     glViewport(0, 0, options.width, options.height);
     glClearColor(0.1F, 0.2F, 0.3F, 1.0F);
-    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    glClear(GL_COLOR_BUFFER_BIT | (options.no_depth ? 0U : GL_DEPTH_BUFFER_BIT));
     scene(frame);
     if (!options.bare) {
         bar();
@@ -345,6 +347,7 @@ static void read_options(int argc, char** argv) {
         options.quiet |= strcmp(word, "quiet") == 0;
         options.bare |= strcmp(word, "bare") == 0;
         options.attributes |= strcmp(word, "attributes") == 0;
+        options.no_depth |= strcmp(word, "nodepth") == 0;
         options.pushes |= strcmp(word, "pushes") == 0;
         options.framebuffer |= strcmp(word, "framebuffer") == 0;
         options.thread |= strcmp(word, "thread") == 0;
