@@ -49,6 +49,8 @@ struct RenderSession {
 /// Loads the plugin and creates the renderer. On failure the session renders without fluid.
 [[nodiscard]] Status startFluid(RenderSession& session, const RenderInputs& inputs, const RenderOptions& options);
 
+[[nodiscard]] std::uint64_t nanoseconds(double seconds);
+
 /// The FLUID_* roles that the layered EXR needs beyond colour and depth.
 [[nodiscard]] std::uint32_t layerOutputs(const RenderOptions& options);
 

@@ -3,6 +3,8 @@
 
 #include <dlfcn.h>
 #include <epoxy/egl.h>
+#include <epoxy/gl.h>
+#include <fmt/format.h>
 
 namespace sluice::host {
 
@@ -87,6 +89,25 @@ std::optional<Extent> drawableExtent(const CurrentContext& context) {
         return std::nullopt;
     }
     return Extent{width, height};
+}
+
+Error noContext(const char* call) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, call, "no EGL or GLX context is current on this thread",
+            "call it on the thread that draws, after the context was made current"};
+}
+
+Status checkContext() {
+    if (!epoxy_is_desktop_gl() || epoxy_gl_version() < 21) {
+        const int version = epoxy_gl_version();
+        return Error{SLUICE_ERROR_UNSUPPORTED, "OpenGL context",
+                     fmt::format("found {}{}.{}", epoxy_is_desktop_gl() ? "" : "ES ", version / 10, version % 10),
+                     "desktop OpenGL with 2.1 or newer in GL_VERSION is needed"};
+    }
+    if (epoxy_gl_version() < 30 && !epoxy_has_gl_extension("GL_ARB_framebuffer_object")) {
+        return Error{SLUICE_ERROR_UNSUPPORTED, "OpenGL context", "GL_ARB_framebuffer_object is missing",
+                     "update the GL driver"};
+    }
+    return {};
 }
 
 }  // namespace sluice::host

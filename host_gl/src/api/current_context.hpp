@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 
+#include "sluice/result.hpp"
+
 namespace sluice::host {
 
 enum class ContextKind : std::uint8_t { None, Egl, Glx };
@@ -17,6 +19,11 @@ struct CurrentContext {
     friend bool operator==(const CurrentContext&, const CurrentContext&) = default;
 };
 [[nodiscard]] CurrentContext currentContext();
+
+/// What `call` says where none is.
+[[nodiscard]] Error noContext(const char* call);
+/// Whether fluid can be composited in the one that is.
+[[nodiscard]] Status checkContext();
 
 using Extent = std::array<std::uint32_t, 2>;
 
