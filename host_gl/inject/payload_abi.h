@@ -67,6 +67,7 @@ typedef struct SluiceInjectPayload {
     void (*framebuffers_deleted)(int32_t count, const uint32_t* names); /* after: one that was bound is not any more */
     void (*context_created)(uint32_t api, void* context);               /* after; its address may be known already */
     void (*display_ended)(void* display);                               /* of EGL, with its contexts */
+    void (*viewport_changed)(void);                                     /* after */
 } SluiceInjectPayload;
 
 /* NULL: nothing is to be done in this process, and a line on stderr has said why. */

@@ -469,6 +469,55 @@ TEST(FrameTracker, APerspectiveInTheModelViewMatrixIsOneToo) {
     EXPECT_EQ(tracker.lastFrame().flat_draws, 2U);
 }
 
+// A shooter of today: the level in a framebuffer of its own, its picture on the screen, and the hero's face over it.
+TEST(FrameTracker, AFaceInTheCornerOfTheScreenIsNoScene) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    double share = 1.0;
+    tracker.viewportBy([&] { return share; });
+    std::vector<bool> moments;
+    for (int frame = 0; frame < 3; ++frame) {
+        moments.clear();
+        share = 1.0;
+        (void)tracker.bindFramebuffer(7);
+        fixed.project(kLens);
+        EXPECT_FALSE(fixed.draw(9000));
+        moments.push_back(tracker.bindFramebuffer(0));
+        fixed.project(ortho());
+        moments.push_back(fixed.draw(4));
+        share = 0.01;
+        fixed.project(frustum(-1, 1, -1, 1, 4, 2048));
+        moments.push_back(fixed.draw(1191));
+        tracker.endFrame();
+    }
+    EXPECT_EQ(tracker.target(), 7U);
+    EXPECT_EQ(moments, (std::vector<bool>{true, false, false}));
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 1e-3);
+}
+
+TEST(FrameTracker, APictureInACornerComesAfterTheFluidAndIsTheSceneOnlyWhereThereIsNoOther) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    double share = 0.05;
+    tracker.viewportBy([&] { return share; });
+    fixed.project(frustum(-1, 1, -1, 1, 4, 2048));
+    EXPECT_FALSE(fixed.draw(5000));
+    tracker.endFrame();
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_NEAR(tracker.camera()->lens.near_plane, 4, 1e-2);
+    for (int frame = 0; frame < 3; ++frame) {
+        share = 1.0;
+        fixed.project(kLens);
+        EXPECT_FALSE(fixed.draw(100));
+        share = 0.05;
+        fixed.project(frustum(-1, 1, -1, 1, 4, 2048));
+        EXPECT_EQ(fixed.draw(5000), frame > 1) << frame;
+        tracker.endFrame();
+    }
+    EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 1e-3);
+}
+
 TEST(FrameTracker, AFrameWithoutPerspectiveKeepsTheLastCamera) {
     FrameTracker tracker;
     Fixed fixed(tracker);

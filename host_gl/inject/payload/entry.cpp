@@ -204,7 +204,14 @@ void matrixPopped() {
 }
 
 void attributesPopped() {
-    withSession([](Session& at) { at.matrixModeUnknown(); });
+    withSession([](Session& at) {
+        at.matrixModeUnknown();
+        at.viewportUnknown();
+    });
+}
+
+void viewportChanged() {
+    withSession([](Session& at) { at.viewportUnknown(); });
 }
 
 void listCalled() {
@@ -303,7 +310,8 @@ const SluiceInjectPayload kTable{sizeof(SluiceInjectPayload),
                                  programDeleted,
                                  framebuffersDeleted,
                                  contextCreated,
-                                 displayEnded};
+                                 displayEnded,
+                                 viewportChanged};
 
 std::string ownFolder() {
     Dl_info info{};

@@ -84,6 +84,7 @@ Session::Session(Payload& payload, const CurrentContext& current)
     GLint framebuffer = 0;
     payload.gl.getIntegerv(GL_FRAMEBUFFER_BINDING, &framebuffer);
     (void)tracker_.bindFramebuffer(static_cast<std::uint32_t>(framebuffer));
+    tracker_.viewportBy([this] { return viewportShare(); });
     if (facts_.embedded) {
         tracker_.stayInTheWindow();  // what the own context shares with the program's
     }
@@ -262,7 +263,18 @@ void Session::matrixModeUnknown() {
     }
 }
 
+double Session::viewportShare() {
+    if (!viewport_share_) {
+        std::array<GLint, 4> viewport{};
+        payload_.gl.getIntegerv(GL_VIEWPORT, viewport.data());
+        const double whole = static_cast<double>(size_.width) * size_.height;
+        viewport_share_ = whole > 0 ? static_cast<double>(viewport[2]) * viewport[3] / whole : 1.0;
+    }
+    return *viewport_share_;
+}
+
 void Session::listCalled() {
+    viewport_share_.reset();
     if (tracker_.listsChangeMode()) {
         matrixModeUnknown();
     }
@@ -354,6 +366,7 @@ void Session::swap(const CurrentContext& current, const char* route) {
         tracker_.stackIs(static_cast<std::size_t>(std::max(depth, 1) - 1));
     }
     composed_ = false;
+    viewport_share_.reset();
     blocks_changed_ = true;
     depth_asked_ = false;
     block_reads_ = 0;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -56,6 +57,7 @@ class Session {
     /// Asks which matrix it is that the next calls change.
     void matrixModeUnknown();
     void listCalled();
+    void viewportUnknown() { viewport_share_.reset(); }
     /// The context has been, or is about to be, destroyed: no frame comes any more.
     void retire() { ended_ = true; }
     /// Lets go of the fluid. retire() comes before it.
@@ -97,6 +99,7 @@ class Session {
     void readBlocks();
     void askDepth();
     void clearUnusedDepth();
+    double viewportShare();
     [[nodiscard]] bool clipsZeroToOne() const;
     void forgetOldPrograms();
     void scanPrograms();
@@ -116,6 +119,7 @@ class Session {
     DrawableSize size_;
     std::map<std::pair<std::uint32_t, std::int32_t>, UniformName> names_;
     std::map<std::uint32_t, std::vector<BlockMatrix>> blocks_;  ///< by program
+    std::optional<double> viewport_share_;                      ///< of the window
     bool uses_depth_ = false;                                   ///< the program has cleared it, or tested against it
     bool has_blocks_ = false, blocks_changed_ = true, depth_asked_ = false;
     std::uint32_t block_reads_ = 0;  ///< in this frame

@@ -76,6 +76,7 @@ MATRIX(glTranslated, (double x, double y, double z), (x, y, z))
 MATRIX(glScaled, (double x, double y, double z), (x, y, z))
 AFTER(glPopMatrix, (void), (), matrix_popped())
 BEFORE(glPushMatrix, (void), (), matrix_pushed())
+AFTER(glViewport, (int32_t x, int32_t y, int32_t width, int32_t height), (x, y, width, height), viewport_changed())
 AFTER(glPopAttrib, (void), (), attributes_popped())
 
 AFTER(glUseProgram, (uint32_t program), (program), use_program(program))

@@ -14,6 +14,7 @@ constexpr std::size_t kMostLenses = 16;
 constexpr std::uint32_t kMostPushes = 512;  // of a frame, that are asked for their matrix
 constexpr std::size_t kMostLevels = 64;     // OpenGL has 32 at least, and seldom more
 constexpr std::size_t kMostReasons = 16;
+constexpr double kCorner = 0.15;  // of the window: a face or a map beside the scene; a quarter may be one player's
 
 }  // namespace
 
@@ -265,6 +266,10 @@ void FrameTracker::viewOfProgram(Group& group, const ProgramCamera& program) {
     }
 }
 
+bool FrameTracker::inACorner() const {
+    return framebuffer_ == 0 && viewport_share_ && viewport_share_() < kCorner;
+}
+
 bool FrameTracker::draw(std::uint32_t vertices) {
     if (compiling_) {
         return false;
@@ -276,7 +281,7 @@ bool FrameTracker::draw(std::uint32_t vertices) {
     const bool perspective = reading != nullptr && reading->shape == Shape::Perspective;
     if (framebuffer_ != target_) {
         ++now_.foreign_draws;
-        if (perspective && refused_.count(framebuffer_) == 0) {
+        if (perspective && refused_.count(framebuffer_) == 0 && !inACorner()) {
             elsewhere_[framebuffer_] += count;
         }
         return false;
@@ -285,7 +290,13 @@ bool FrameTracker::draw(std::uint32_t vertices) {
         ++now_.flat_draws;
         return boundary();
     }
+    const bool small = inACorner();
+    if (small && scene_seen_) {
+        ++now_.flat_draws;
+        return boundary();
+    }
     Group& group = groupOf(*reading);
+    group.small = small;
     const std::uint64_t version = program != nullptr ? program->version : fixed_version_;
     if (group.draws == 0) {
         if (program != nullptr) {
@@ -345,7 +356,9 @@ void FrameTracker::refuse(std::uint32_t framebuffer) {
 
 /// The default framebuffer if any scene is drawn there.
 void FrameTracker::chooseTarget() {
-    const bool here = mainGroup() != nullptr;
+    const Group* const most = mainGroup();
+    scene_seen_ = scene_seen_ || !elsewhere_.empty() || (most != nullptr && !most->small);
+    const bool here = most != nullptr && (!most->small || elsewhere_.empty());
     const bool in_default = target_ == 0 ? here : elsewhere_.count(0) != 0;
     std::uint32_t next = target_;
     if (in_default) {
@@ -380,8 +393,9 @@ bool FrameTracker::boundary() {
 }
 
 const FrameTracker::Group* FrameTracker::mainGroup() const {
-    const auto most = std::max_element(groups_.begin(), groups_.end(),
-                                       [](const Group& a, const Group& b) { return a.vertices < b.vertices; });
+    const auto most = std::max_element(groups_.begin(), groups_.end(), [](const Group& a, const Group& b) {
+        return a.small != b.small ? a.small : a.vertices < b.vertices;
+    });
     return most == groups_.end() ? nullptr : &*most;
 }
 

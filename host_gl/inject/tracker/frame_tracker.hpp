@@ -5,10 +5,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tracker/projection.hpp"
@@ -101,6 +103,8 @@ class FrameTracker {
     void refuse(std::uint32_t framebuffer);
     /// After it: one that was bound is not any more.
     void framebufferDeleted(std::uint32_t framebuffer);
+    /// Gives, at a draw into the default framebuffer, the share of it that the viewport has.
+    void viewportBy(std::function<double()> share) { viewport_share_ = std::move(share); }
     /// No framebuffer of the program's own can be reached.
     void stayInTheWindow() { only_window_ = true; }
     void compileList(bool compiling);
@@ -125,6 +129,7 @@ class FrameTracker {
     };
     struct Group {
         bool fixed = false;
+        bool small = false;  ///< in a corner of the picture
         std::vector<Candidate> views;
         Reading reading;
         FoundCamera camera;
@@ -144,6 +149,7 @@ class FrameTracker {
 
     [[nodiscard]] const ProgramCamera* programCamera() const;
     [[nodiscard]] bool boundary();
+    [[nodiscard]] bool inACorner() const;
     Group& groupOf(const Reading& reading);
     void viewOfFixed(Group& group) const;
     static void takeView(const Reading& reading, const Matrix& model_view, FoundCamera& camera);
@@ -171,6 +177,8 @@ class FrameTracker {
     std::uint32_t program_ = 0, framebuffer_ = 0, target_ = 0;
     bool program_deleted_ = false;  ///< program_, which is in use still
     bool only_window_ = false;
+    bool scene_seen_ = false;  ///< one that was no picture in a corner
+    std::function<double()> viewport_share_;
     DepthRules depth_;
     std::map<std::uint32_t, std::uint64_t>
         elsewhere_;  ///< vertices in perspective, by framebuffer other than the target
