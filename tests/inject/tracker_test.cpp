@@ -488,6 +488,7 @@ TEST(FrameTracker, AFaceInTheCornerOfTheScreenIsNoScene) {
         share = 0.01;
         fixed.project(frustum(-1, 1, -1, 1, 4, 2048));
         moments.push_back(fixed.draw(1191));
+        EXPECT_EQ(tracker.camera().has_value(), frame > 0) << "the face is never the camera";
         tracker.endFrame();
     }
     EXPECT_EQ(tracker.target(), 7U);

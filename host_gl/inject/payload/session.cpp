@@ -473,7 +473,14 @@ Status Session::composeIn(const FoundCamera& camera) {
             return made.error();
         }
         water_ = std::move(made).value();
+        placed_in_ = tracker_.target();
         if (Status status = water_->begin(time()); !status) {
+            return status;
+        }
+    }
+    if ((tracker_.target() == 0) != (placed_in_ == 0)) {  // what came before was a menu, or a picture in a corner
+        placed_in_ = tracker_.target();
+        if (Status status = water_->placeAnew(camera, seenDistance(camera)); !status) {
             return status;
         }
     }

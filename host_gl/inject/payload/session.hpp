@@ -115,6 +115,7 @@ class Session {
     FrameTracker tracker_;
     std::unique_ptr<OwnContext> own_;  ///< outlives the water; only beside a program of OpenGL ES
     std::unique_ptr<Water> water_;
+    std::uint32_t placed_in_ = 0;  ///< the framebuffer whose scene the fluid was placed in
     WaterReport last_water_;
     DrawableSize size_;
     std::map<std::pair<std::uint32_t, std::int32_t>, UniformName> names_;

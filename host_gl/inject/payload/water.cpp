@@ -165,6 +165,12 @@ class LibraryWater final : public Water {
         return result == SLUICE_OK ? Status{} : failure(result, fluid_);
     }
 
+    Status placeAnew(const FoundCamera& camera, double distance) override {
+        placement_ = Placement(plan_, camera, distance);
+        begun_ = false;  // a frame that has begun has other water
+        return setWater(plan_);
+    }
+
     WaterReport report() override {
         SluiceStatistics statistics{};
         statistics.struct_size = sizeof(statistics);

@@ -33,6 +33,8 @@ class Water {
     [[nodiscard]] virtual Status begin(double time) = 0;
     /// The scene is complete; draws the fluid into the default framebuffer.
     [[nodiscard]] virtual Status compose(const FoundCamera& camera, double time) = 0;
+    /// The scene is another one: the fluid stands before this eye as it stood before the first.
+    [[nodiscard]] virtual Status placeAnew(const FoundCamera& camera, double distance) = 0;
     [[nodiscard]] virtual WaterReport report() = 0;
 };
 

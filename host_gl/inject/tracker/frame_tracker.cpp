@@ -291,7 +291,7 @@ bool FrameTracker::draw(std::uint32_t vertices) {
         return boundary();
     }
     const bool small = inACorner();
-    if (small && scene_seen_) {
+    if (small && (scene_seen_ || !elsewhere_.empty())) {
         ++now_.flat_draws;
         return boundary();
     }
