@@ -38,9 +38,9 @@
  *   negative SluiceResult; sluice_last_error has the text; the log hears of each failure once, however often it comes
  *   back. Every function takes a NULL Sluice and returns SLUICE_ERROR_INVALID_ARGUMENT, so that an engine need not look
  *   at the results at all. The renderer runs in a process of its own unless asked otherwise: if it crashes or hangs,
- *   the engine goes on without fluid and gets another one a few frames later. It is a child of the engine's process: an
- *   engine that waits until it has no child left waits for it, too. A renderer that hangs while it starts can hold
- *   sluice_begin_frame or sluice_end_frame for up to two minutes.
+ *   the engine goes on without fluid and gets another one a few frames later. It is no child of the engine's process
+ *   and ends with it. A renderer that hangs while it starts can hold sluice_begin_frame or sluice_end_frame for as long
+ *   as SluiceOptions::start_deadline says, two minutes if nothing else is asked for.
  *
  * OWNERSHIP, THREADS
  *   What is passed in is copied during the call. Everything on the thread on which the context is current. The log
@@ -127,7 +127,8 @@ SLUICE_EXPORT SluiceResult sluice_begin_frame(Sluice* fluid, const float* view, 
 SLUICE_EXPORT SluiceResult sluice_set_camera(Sluice* fluid, const float* view, const float* projection);
 
 /* The world has been drawn: depth and colour of the framebuffer bound for drawing are taken, and the fluid is drawn
- * into it with its own depth, which it writes. Once for each sluice_begin_frame. */
+ * into it with its own depth, which it writes. Once for each sluice_begin_frame; a frame that could not begin ends with
+ * the reason that it had, and one that began without this water, or switched off, with SLUICE_NOT_READY. */
 SLUICE_EXPORT SluiceResult sluice_end_frame(Sluice* fluid);
 
 /* With the context current if it still exists; without, or with another one, nothing is asked of OpenGL. NULL is
