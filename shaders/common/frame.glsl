@@ -56,10 +56,11 @@ float linearDepth(float window) { return frame.depth_range.y / (window * 2.0 - 1
 // A raw value of HOST_DEPTH as metres. Background (window depth 1, linear +inf) becomes EMPTY_DEPTH, so that no infinity
 // enters arithmetic.
 float sceneDepth(float raw) {
-    if (frame.modes.x != 0u) {
-        return raw < 1e29 ? raw : EMPTY_DEPTH;
-    }
-    return raw < 1.0 ? linearDepth(raw) : EMPTY_DEPTH;
+    // A choice between values and not a branch: lavapipe (Mesa 22.3) makes a shader of its own for a branch on a uniform, anew
+    // for each frame, and keeps them all.
+    const bool linear = frame.modes.x != 0u;
+    const float metres = mix(linearDepth(raw), raw, linear);
+    return raw < mix(1.0, 1e29, linear) ? metres : EMPTY_DEPTH;
 }
 
 #endif
