@@ -5,10 +5,12 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <functional>
 #include <thread>
 #include <vector>
 
 #include "device/device.hpp"
+#include "device/one_shot.hpp"
 #include "device/structs.hpp"
 #include "sync/binary_pool.hpp"
 #include "sync/renderer_timeline.hpp"
@@ -54,7 +56,7 @@ class Timeline : public ::testing::Test {
         info.pWaitSemaphoreInfos = semaphores.value().waits.data();
         info.signalSemaphoreInfoCount = static_cast<std::uint32_t>(semaphores.value().signals.size());
         info.pSignalSemaphoreInfos = semaphores.value().signals.data();
-        if (device->fn.vkQueueSubmit2(device->queue, 1, &info, VK_NULL_HANDLE) != VK_SUCCESS) {
+        if (device->submit(info, VK_NULL_HANDLE, timeline.promiseOf(2 * frame - 1, skip_wait)) != VK_SUCCESS) {
             return false;
         }
         timeline.submitted(2 * frame - 1, frame, skip_wait);
@@ -113,6 +115,48 @@ TEST_F(Timeline, OneLateSignalReleasesEverythingBeforeIt) {
     }
     ASSERT_TRUE(timeline->signal(7));
     EXPECT_EQ(timeline->wait(4, kLong), SLUICE_OK);
+}
+
+PFN_vkSignalSemaphore real_signal = nullptr;
+std::function<void()> inside_signal;
+/// Is still busy when the work that waited for it has ended.
+VkResult VKAPI_PTR slowSignal(VkDevice device, const VkSemaphoreSignalInfo* info) {
+    const VkResult result = real_signal(device, info);
+    inside_signal();
+    return result;
+}
+
+TEST_F(Timeline, NoWaitForWorkBehindAPromiseEndsBeforeTheCallThatKeepsItHasReturned) {
+    const auto timeline = make(SLUICE_TIMELINE_BRIDGED);
+    ASSERT_TRUE(timeline);
+    ASSERT_TRUE(submitEmpty(*timeline, 1));
+    std::atomic<bool> inside{true};
+    std::atomic<bool> later_ended{false};
+    bool later_ended_inside = true;
+    SluiceResult waited_inside = SLUICE_OK;
+    std::thread later;
+    inside_signal = [&] {
+        later = std::thread([&] {
+            EXPECT_TRUE(runOnce(*device, [](VkCommandBuffer) {}));
+            later_ended_inside = inside;
+            later_ended = true;
+        });
+        EXPECT_EQ(device->waitIdle(), VK_SUCCESS) << "the work itself has ended";
+        waited_inside = timeline->wait(1, 0);
+        for (int i = 0; i < 20 && !later_ended; ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        }
+        inside = false;
+    };
+    real_signal = device->fn.vkSignalSemaphore;
+    device->fn.vkSignalSemaphore = slowSignal;
+    EXPECT_TRUE(timeline->signal(1));
+    device->fn.vkSignalSemaphore = real_signal;
+    later.join();
+    inside_signal = {};
+    EXPECT_EQ(waited_inside, SLUICE_TIMEOUT);
+    EXPECT_FALSE(later_ended_inside);
+    EXPECT_EQ(timeline->wait(1, kLong), SLUICE_OK);
 }
 
 TEST_F(Timeline, WaitGivesUpAtItsDeadlineAndNothingIsLost) {

@@ -261,7 +261,7 @@ std::unique_ptr<Device> Device::computeView() const {
     out->queue_family = other ? compute_family : queue_family;
     out->shared_families = sharingFamilies();
     if (!other) {
-        out->queue_lock = queue_lock;
+        out->queue_use = queue_use;
     }
     out->instance_fn = instance_fn;
     out->fn = fn;
@@ -277,13 +277,21 @@ std::unique_ptr<Device> Device::computeView() const {
     return out;
 }
 
-VkResult Device::submit(const VkSubmitInfo2& info, VkFence fence) const {
-    const std::lock_guard guard(*queue_lock);
-    return fn.vkQueueSubmit2(queue, 1, &info, fence);
+VkResult Device::submit(const VkSubmitInfo2& info, VkFence fence, const HostPromise& promise,
+                        HostPromise* behind) const {
+    const std::lock_guard guard(queue_use->lock);
+    const VkResult result = fn.vkQueueSubmit2(queue, 1, &info, fence);
+    if (result == VK_SUCCESS && promise.of) {
+        queue_use->behind = promise;
+    }
+    if (behind != nullptr) {
+        *behind = queue_use->behind;
+    }
+    return result;
 }
 
 VkResult Device::waitIdle() const {
-    const std::lock_guard guard(*queue_lock);
+    const std::lock_guard guard(queue_use->lock);
     return fn.vkQueueWaitIdle(queue);
 }
 

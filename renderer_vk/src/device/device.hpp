@@ -15,6 +15,7 @@
 #include "device/functions.hpp"
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
+#include "sync/host_promises.hpp"
 
 namespace sluice::vk {
 
@@ -47,6 +48,12 @@ struct DeviceFeatures {
     bool calibrated_timestamps = false;  ///< device and CLOCK_MONOTONIC
 };
 
+/// Of one queue.
+struct QueueUse {
+    std::mutex lock;
+    HostPromise behind;  ///< what its last submission that waited for the host waits for
+};
+
 /// Owns the instance and the device. Pinned in memory: keep it by unique_ptr and pass `const Device&`. Call device
 /// functions through `fn`: `device.fn.vkCmdDispatch(commands, x, y, z)`; from any thread within Vulkan's own rules, but
 /// what uses a queue goes through submit() and waitIdle(). Enabled always: Vulkan 1.3 with synchronization2,
@@ -69,7 +76,7 @@ struct Device {
     VkDevice handle = VK_NULL_HANDLE;
     VkQueue queue = VK_NULL_HANDLE;  ///< graphics and compute; of computeView(): for compute
     std::uint32_t queue_family = 0;
-    std::shared_ptr<std::mutex> queue_lock = std::make_shared<std::mutex>();  ///< of `queue`
+    std::shared_ptr<QueueUse> queue_use = std::make_shared<QueueUse>();  ///< of `queue`
     VkQueue compute_queue = VK_NULL_HANDLE;  ///< runs beside `queue`; null where the device has none
     std::uint32_t compute_family = 0;
     std::uint32_t timestamp_valid_bits = 0;  ///< of the queue family; 0: no timestamps
@@ -84,8 +91,10 @@ struct Device {
     TestSwitches switches = testSwitches();  ///< as they were when the device was created
     SluiceRendererCapabilities capabilities{};
 
-    /// vkQueueSubmit2 and vkQueueWaitIdle, from any thread: a queue may be another thread's as well.
-    [[nodiscard]] VkResult submit(const VkSubmitInfo2& info, VkFence fence) const;
+    /// vkQueueSubmit2 and vkQueueWaitIdle, from any thread: a queue may be another thread's as well. `promise`: what
+    /// the submission waits for; `behind`: becomes the last such promise of the queue, this one's included.
+    [[nodiscard]] VkResult submit(const VkSubmitInfo2& info, VkFence fence, const HostPromise& promise = {},
+                                  HostPromise* behind = nullptr) const;
     [[nodiscard]] VkResult waitIdle() const;
     /// The families of both queues where they differ, for buffers that both use; else empty. Of a view: the same.
     [[nodiscard]] std::vector<std::uint32_t> sharingFamilies() const;

@@ -72,11 +72,14 @@ Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>&
     submit.pCommandBufferInfos = &command_info;
     submit.signalSemaphoreInfoCount = static_cast<std::uint32_t>(signals.size());
     submit.pSignalSemaphoreInfos = signals.data();
-    result = device.submit(submit, mine.fence);
+    HostPromise behind;
+    result = device.submit(submit, mine.fence, {}, &behind);
     if (result != VK_SUCCESS) {
         return vulkanError(result, "vkQueueSubmit2");
     }
-    result = device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, kDeadlineNs);
+    const auto deadline = deadlineIn(kDeadlineNs);
+    const bool kept = !behind.of || behind.of->waitUntilKept(behind.value, deadline);
+    result = kept ? device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, leftUntil(deadline)) : VK_TIMEOUT;
     if (result == VK_TIMEOUT) {
         // Freeing what the queue still uses would be worse than waiting on; the queue's lock would stop its other user.
         (void)device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, UINT64_MAX);

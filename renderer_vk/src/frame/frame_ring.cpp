@@ -145,7 +145,9 @@ Status FrameRing::enqueue(Slot& slot, const SluiceFrame& frame, const SubmitSema
     info.pCommandBufferInfos = &commands;
     info.signalSemaphoreInfoCount = static_cast<std::uint32_t>(semaphores.signals.size());
     info.pSignalSemaphoreInfos = semaphores.signals.data();
-    if (const VkResult result = device_.submit(info, VK_NULL_HANDLE); result != VK_SUCCESS) {
+    const bool skip_wait = (frame.flags & SLUICE_FRAME_SKIP_WAIT) != 0;
+    const HostPromise promise = timeline_.promiseOf(frame.wait_value, skip_wait);
+    if (const VkResult result = device_.submit(info, VK_NULL_HANDLE, promise); result != VK_SUCCESS) {
         return vulkanError(result, fmt::format("vkQueueSubmit2 of frame {}", frame.frame));
     }
     return {};

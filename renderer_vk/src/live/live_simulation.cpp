@@ -247,11 +247,19 @@ void LiveSimulation::drawn(std::uint64_t value, std::uint64_t signal_value,
 }
 
 SluiceResult LiveSimulation::wait(std::uint64_t value, std::uint64_t timeout_ns) const {
+    const auto deadline = deadlineIn(timeout_ns);
+    {
+        // For the thread, which has seen the end of it; HostPromises says why not at once.
+        std::unique_lock lock(mutex_);
+        if (!changed_.wait_until(lock, deadline, [&] { return submitted_ >= value || ended_; })) {
+            return SLUICE_TIMEOUT;
+        }
+    }
     auto info = vkStruct<VkSemaphoreWaitInfo>(VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO);
     info.semaphoreCount = 1;
     info.pSemaphores = &semaphore_;
     info.pValues = &value;
-    const VkResult result = device_->fn.vkWaitSemaphores(device_->handle, &info, timeout_ns);
+    const VkResult result = device_->fn.vkWaitSemaphores(device_->handle, &info, leftUntil(deadline));
     if (result == VK_SUCCESS) {
         return SLUICE_OK;
     }

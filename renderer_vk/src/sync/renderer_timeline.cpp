@@ -107,10 +107,16 @@ Result<SubmitSemaphores> RendererTimeline::forSubmit(std::uint64_t wait_value, s
     return out;
 }
 
+HostPromise RendererTimeline::promiseOf(std::uint64_t wait_value, bool skip_wait) const {
+    const bool waits = !skip_wait && cpuSignals() && kind_ != SLUICE_TIMELINE_UNSYNCHRONISED;
+    return waits ? HostPromise{promises_, wait_value} : HostPromise{};
+}
+
 void RendererTimeline::submitted(std::uint64_t wait_value, std::uint64_t signal_value, bool skip_wait) {
     if (!skip_wait && kind_ != SLUICE_TIMELINE_UNSYNCHRONISED) {
         last_wait_ = std::max(last_wait_, wait_value);
     }
+    promises_->submitted(promiseOf(wait_value, skip_wait).value, signal_value);
     last_signal_ = std::max(last_signal_, signal_value);
 }
 
@@ -134,12 +140,17 @@ Status RendererTimeline::signal(std::uint64_t value) {
     if (const VkResult result = device_.fn.vkSignalSemaphore(device_.handle, &info); result != VK_SUCCESS) {
         return vulkanError(result, fmt::format("vkSignalSemaphore({})", value));
     }
+    promises_->kept(value);
     signalled_ = value;
     return {};
 }
 
 SluiceResult RendererTimeline::wait(std::uint64_t value, std::uint64_t timeout_ns) const {
-    const VkResult result = waitFor(device_, renderer_to_host_, value, timeout_ns);
+    const auto deadline = deadlineIn(timeout_ns);
+    if (!promises_->waitUntilFree(value, deadline)) {
+        return SLUICE_TIMEOUT;
+    }
+    const VkResult result = waitFor(device_, renderer_to_host_, value, leftUntil(deadline));
     if (result == VK_SUCCESS) {
         return SLUICE_OK;
     }
@@ -190,6 +201,7 @@ void RendererTimeline::force(std::uint64_t from, std::uint64_t through) {
         if (device_.fn.vkSignalSemaphore(device_.handle, &info) != VK_SUCCESS) {
             return;
         }
+        promises_->kept(value);
         forced_ = value;
     }
 }

@@ -14,6 +14,7 @@
 #include "sluice/plugin.h"
 #include "sluice/result.hpp"
 #include "sync/binary_pool.hpp"
+#include "sync/host_promises.hpp"
 
 namespace sluice::vk {
 
@@ -49,12 +50,15 @@ class RendererTimeline {
     /// it, because the wait for the queue that follows would never end.
     [[nodiscard]] Result<SubmitSemaphores> forSubmit(std::uint64_t wait_value, std::uint64_t signal_value,
                                                      bool skip_wait);
+    /// What such a submission waits for, where that is for the CPU to signal; else none. For Device::submit.
+    [[nodiscard]] HostPromise promiseOf(std::uint64_t wait_value, bool skip_wait) const;
     /// The submission that forSubmit was asked for has reached the queue.
     void submitted(std::uint64_t wait_value, std::uint64_t signal_value, bool skip_wait);
 
     /// The host-to-renderer counter reaches `value` now. Must increase. Only for kinds that the CPU signals.
     [[nodiscard]] Status signal(std::uint64_t value);
-    /// Blocks until the renderer-to-host counter has reached `value`: OK, TIMEOUT or a failure.
+    /// Blocks until the renderer-to-host counter has reached `value`, and no sooner than signal() of what that waits
+    /// for has returned: OK, TIMEOUT or a failure.
     [[nodiscard]] SluiceResult wait(std::uint64_t value, std::uint64_t timeout_ns) const;
     /// The counter now. BINARY knows the host's only as far as finished frames prove it.
     [[nodiscard]] Result<std::uint64_t> value(SluiceDirection direction) const;
@@ -86,6 +90,7 @@ class RendererTimeline {
     VkSemaphore renderer_to_host_ = VK_NULL_HANDLE;
     BinaryPool binary_host_to_renderer_;
     BinaryPool binary_renderer_to_host_;
+    std::shared_ptr<HostPromises> promises_ = std::make_shared<HostPromises>();
     std::uint64_t last_wait_ = 0;    ///< highest host value that a submission waits for
     std::uint64_t last_signal_ = 0;  ///< highest renderer value that a submission will signal
     std::mutex signal_lock_;         ///< guards signalled_ and forced_
