@@ -519,6 +519,28 @@ TEST(FrameTracker, APictureInACornerComesAfterTheFluidAndIsTheSceneOnlyWhereTher
     EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 1e-3);
 }
 
+// Irrlicht: the eye looks along +z, and view and world are made for that.
+TEST(FrameTracker, ALeftHandedCameraIsOneAndTheViewOfAMirrorIsNone) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    Matrix hand = kIdentity;
+    hand[10] = -1;
+    const Matrix view = product(turn(30), translation(1, 2, 7));
+    fixed.project(product(kLens, hand));
+    fixed.model(view);
+    (void)fixed.draw(100);
+    ASSERT_TRUE(tracker.camera());
+    const FoundCamera camera = *tracker.camera();
+    EXPECT_EQ(camera.source, "projection matrix");
+    // What it shows of a point is what the program shows of it, with the world's z turned round.
+    const Matrix ours = product(product(projectionOf(camera.lens), camera.view), hand);
+    const Matrix theirs = product(product(kLens, hand), view);
+    for (std::size_t i = 0; i < ours.size(); ++i) {
+        EXPECT_NEAR(ours.at(i), theirs.at(i), 1e-3) << i;
+    }
+    EXPECT_EQ(readMatrix(product(product(kLens, hand), view)).reason, "it is mirrored");
+}
+
 TEST(FrameTracker, AFrameWithoutPerspectiveKeepsTheLastCamera) {
     FrameTracker tracker;
     Fixed fixed(tracker);

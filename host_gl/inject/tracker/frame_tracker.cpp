@@ -242,7 +242,7 @@ void FrameTracker::takeView(const Reading& reading, const Matrix& model_view, Fo
         camera.view_confidence = 0.1;
         return;
     }
-    camera.view = product(reading.view, rigid.matrix);
+    camera.view = product(reading.view, reading.left_handed ? otherHanded(rigid.matrix) : rigid.matrix);
     camera.scale = reading.scale * rigid.scale;
     if (isIdentity(camera.view)) {
         camera.view_confidence = 0.3;
@@ -258,7 +258,7 @@ void FrameTracker::viewOfProgram(Group& group, const ProgramCamera& program) {
     camera.view_source = group.reading.pure ? "none" : "what stands right of the projection in the first draw";
     camera.view_confidence = group.reading.pure ? 0.1 : 0.5;
     if (const Rigid rigid = program.view ? rigidPart(*program.view) : Rigid{}; rigid.valid && group.reading.pure) {
-        camera.view = rigid.matrix;
+        camera.view = group.reading.left_handed ? otherHanded(rigid.matrix) : rigid.matrix;
         camera.scale = rigid.scale;
         const bool named = program.view_name == UniformName::View;
         camera.view_source = named ? "uniform named view" : "uniform named model-view at the first draw";

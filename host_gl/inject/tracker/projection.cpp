@@ -81,6 +81,8 @@ std::string readDepth(double a, double b, const DepthRules& rules, Lens& lens) {
     return {};
 }
 
+constexpr Matrix kOtherHand{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1};
+
 }  // namespace
 
 Reading readMatrix(const Matrix& matrix, const DepthRules& rules) {
@@ -134,14 +136,19 @@ Reading readMatrix(const Matrix& matrix, const DepthRules& rules) {
     if (std::abs(dot(right, up)) > kPerpendicular * square) {
         return rejected("what stands right of the projection is sheared");
     }
-    if (determinant(right, up, depth) < 0.0) {
-        return rejected("it is mirrored");
-    }
     reading.shape = Shape::Perspective;
     reading.scale = scale;
     putRow(reading.view, 0, right, scale);
     putRow(reading.view, 1, up, scale);
     putRow(reading.view, 2, depth, scale);
+    if (determinant(right, up, depth) < 0.0) {
+        // The pass of a mirror, unless nothing but the projection itself is.
+        reading.view = product(reading.view, kOtherHand);
+        reading.left_handed = isIdentity(reading.view) && std::abs(scale - 1.0) < 1e-5;
+        if (!reading.left_handed) {
+            return rejected("it is mirrored");
+        }
+    }
     reading.pure = isIdentity(reading.view) && std::abs(scale - 1.0) < 1e-5;
     return reading;
 }
@@ -152,6 +159,10 @@ Matrix transposed(const Matrix& matrix) {
         out.at(i) = matrix.at(i % 4 * 4 + i / 4);
     }
     return out;
+}
+
+Matrix otherHanded(const Matrix& matrix) {
+    return product(kOtherHand, product(matrix, kOtherHand));
 }
 
 Reading readEitherWay(const Matrix& matrix, const DepthRules& rules) {

@@ -40,10 +40,11 @@ enum class Shape {
 struct Reading {
     Shape shape = Shape::Rejected;
     Lens lens;
-    Matrix view = kIdentity;  ///< rigid: what stands to the right of the projection, its scale taken out
-    double scale = 1;         ///< units of the lens per unit of what the matrix is applied to
-    bool pure = false;        ///< the projection alone: nothing stands to its right
-    bool transposed = false;  ///< the matrix was written row by row
+    Matrix view = kIdentity;   ///< rigid: what stands to the right of the projection, its scale taken out
+    double scale = 1;          ///< units of the lens per unit of what the matrix is applied to
+    bool pure = false;         ///< the projection alone: nothing stands to its right
+    bool transposed = false;   ///< the matrix was written row by row
+    bool left_handed = false;  ///< a pure projection that looks along +z, as Direct3D's and Irrlicht's do
     std::string reason;
 };
 
@@ -56,6 +57,8 @@ struct Reading {
 /// Where both readings are cameras, the one without a scale of its own is meant.
 [[nodiscard]] Reading readEitherWay(const Matrix& matrix, const DepthRules& rules = {});
 [[nodiscard]] Matrix transposed(const Matrix& matrix);
+/// A motion of a left-handed world, as it is with the z of both sides turned round.
+[[nodiscard]] Matrix otherHanded(const Matrix& matrix);
 
 /// `matrix` without its scale, if it is a rigid motion with one scale and no mirror; identity and false if not.
 struct Rigid {
