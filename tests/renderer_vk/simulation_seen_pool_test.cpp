@@ -14,19 +14,30 @@ namespace {
 
 class SimulationSeenPool : public SimulationTest {};
 
-TEST_F(SimulationSeenPool, WaterAtRestInATroughThatIsSeenStaysAtRest) {
-    constexpr std::uint32_t kWidth = 320;
-    constexpr std::uint32_t kHeight = 240;
-    const Solid pillar = boxSolid({0.4F, 0.2F, 0.34F}, {0.06F, 0.2F, 0.06F});
-    DepthView camera = looking({0.9, 0.95, 1.6}, {0.3, 0.1, 0.3}, kWidth, kHeight);
+constexpr std::uint32_t kWidth = 320;
+constexpr std::uint32_t kHeight = 240;
+
+DepthView cameraAt(const Vector& eye, const Vector& target, const Vector& upward) {
+    DepthView camera = looking(eye, target, kWidth, kHeight, upward);
     camera.projection[0] = 1.44F;
     camera.projection[5] = 1.92F;
-    // Walls of three radii stand around the domain, so that they hide water and hold none.
-    const DepthField full = picture(
-        camera, kWidth, kHeight,
-        {planeSolid({0, 1, 0}, {0, 0, 0}), boxSolid({0.3F, 0.1F, -0.03F}, {0.36F, 0.1F, 0.03F}),
-         boxSolid({0.3F, 0.1F, 0.63F}, {0.36F, 0.1F, 0.03F}), boxSolid({-0.03F, 0.1F, 0.3F}, {0.03F, 0.1F, 0.3F}),
-         boxSolid({0.63F, 0.1F, 0.3F}, {0.03F, 0.1F, 0.3F}), pillar});
+    return camera;
+}
+
+/// A floor and walls of three radii about a square of 0.6 m.
+std::vector<Solid> trough() {
+    return {planeSolid({0, 1, 0}, {0, 0, 0}), boxSolid({0.3F, 0.1F, -0.03F}, {0.36F, 0.1F, 0.03F}),
+            boxSolid({0.3F, 0.1F, 0.63F}, {0.36F, 0.1F, 0.03F}), boxSolid({-0.03F, 0.1F, 0.3F}, {0.03F, 0.1F, 0.3F}),
+            boxSolid({0.63F, 0.1F, 0.3F}, {0.03F, 0.1F, 0.3F})};
+}
+
+TEST_F(SimulationSeenPool, WaterAtRestInATroughThatIsSeenStaysAtRest) {
+    const Solid pillar = boxSolid({0.4F, 0.2F, 0.34F}, {0.06F, 0.2F, 0.06F});
+    const DepthView camera = cameraAt({0.9, 0.95, 1.6}, {0.3, 0.1, 0.3}, {0, 1, 0});
+    // The walls stand around the domain, so that they hide water and hold none.
+    std::vector<Solid> solids = trough();
+    solids.push_back(pillar);
+    const DepthField full = picture(camera, kWidth, kHeight, solids);
     std::vector<float> pool;
     const std::vector<float> all = lattice({0, 0, 0}, 15, 3, 15, 2.0F * kRadius, 0.0F, 1);
     for (std::size_t i = 0; i < all.size(); i += 3) {
@@ -71,6 +82,45 @@ TEST_F(SimulationSeenPool, WaterAtRestInATroughThatIsSeenStaysAtRest) {
     EXPECT_LT(seen.energy, 4.0 * solid.energy);
     EXPECT_LT(only_seen.energy, 8.0 * solid.energy);
     EXPECT_LT(std::max(seen.highest, only_seen.highest), 0.16F) << "of 0.12 m; droplets leap";
+}
+
+TEST_F(SimulationSeenPool, NobodyWhoIsSeenGetsOutOfATroughThatNothingElseHolds) {
+    // No solids, and a domain that is larger on all sides and below.
+    SimulationSettings settings;
+    settings.radius = kRadius;
+    settings.low = {-0.4F, -0.2F, -0.4F};
+    settings.high = {1.0F, 0.6F, 1.0F};
+    const std::vector<float> pool = lattice({0, 0, 0}, 15, 3, 15, 2.0F * kRadius, 0.0F, 1);
+    struct Look {
+        Vector eye, target, upward;
+        double out, energy;  ///< share of who began where it is seen; J/kg after 1 s
+    };
+    for (const Look& look : {Look{{0.3, 1.6, 0.3}, {0.3, 0, 0.3}, {0, 0, -1}, 0.005, 0.012},     // into it
+                             Look{{0.5, 1.4, 1.0}, {0.3, 0.05, 0.3}, {0, 1, 0}, 0.03, 0.03}}) {  // over its front
+        const DepthView camera = cameraAt(look.eye, look.target, look.upward);
+        const DepthField full = picture(camera, kWidth, kHeight, trough());
+        settings.seen = std::make_shared<const DepthField>(depthField(camera, kWidth, kHeight, 4, 10.0F, full.depth));
+        const auto solver = make(settings, pool);
+        std::size_t seen = 0;
+        std::size_t out = 0;
+        ASSERT_TRUE(solver->advance(1.0, 1.0 / 120.0).ok());
+        const ParticleState state = solver->read().value();
+        const std::vector<Vector> before = vectorsOf(pool);
+        const std::vector<Vector> after = vectorsOf(state.position);
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            if (reference::hiddenIn(*settings.seen, double{kRadius}, before[i])) {
+                continue;
+            }
+            ++seen;
+            const Vector& x = after[i];
+            out += x[0] < -0.05 || x[0] > 0.65 || x[2] < -0.05 || x[2] > 0.65 || x[1] < -0.032 ? 1U : 0U;
+        }
+        const double energy = 0.5 * squares(state.velocity) / static_cast<double>(after.size());
+        RecordProperty(fmt::format("from_{}", look.eye[2]), fmt::format("{} of {}; {:.4f} J/kg", out, seen, energy));
+        EXPECT_GT(seen, after.size() / 2);
+        EXPECT_LT(static_cast<double>(out), look.out * static_cast<double>(seen));
+        EXPECT_LT(energy, look.energy);
+    }
 }
 
 }  // namespace

@@ -18,6 +18,9 @@ namespace sluice::inject {
 
 namespace {
 
+/// Metres: deeper than any box of water is.
+constexpr float kShut = 1e5F;
+
 /// libsluice.so's functions. Never closed: threads of the renderer's may outlive the last context.
 struct Api {
     decltype(&sluice_api_version) version;
@@ -249,7 +252,8 @@ class LibraryWater final : public Water {
         water.emitter_count = static_cast<std::uint32_t>(plan.emitters.size());
         water.max_particles = plan.max_particles;
         water.depth_scale = plan.depth_scale;
-        water.depth_thickness = plan.depth_thickness;
+        // Shut unless told otherwise: water that falls behind the edge of a basin is lost to the eye and to the basin.
+        water.depth_thickness = plan.depth_thickness > 0 ? plan.depth_thickness : kShut;
         const SluiceResult result = api_.setWater(fluid_, &water);
         return result == SLUICE_OK ? Status{} : failure(result, fluid_);
     }

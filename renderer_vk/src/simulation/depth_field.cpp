@@ -46,7 +46,20 @@ Vector tangent(const DepthField& field, const Lens& lens, const Texel& texel, st
     --before.at(axis);
     const double ahead = at(field, after);
     const double behind = at(field, before);
-    const bool forward = behind <= 0.0 || (ahead > 0.0 && std::abs(ahead - depth) < std::abs(behind - depth));
+    bool forward = behind <= 0.0;
+    if (ahead > 0.0 && behind > 0.0) {
+        // Where 1 / depth, which is linear on a plane, bends less; of two sides that both break off, the nearer depth.
+        const auto changeTo = [&](double there) { return std::abs(1.0 / there - 1.0 / depth); };
+        const auto bendOf = [&](double there, Texel beyond, std::int64_t by) {
+            beyond.at(axis) += by;
+            const double second = at(field, beyond);
+            return second > 0.0 ? std::abs(2.0 / there - 1.0 / second - 1.0 / depth) : 1e9;
+        };
+        const double bend[2] = {bendOf(ahead, after, 1), bendOf(behind, before, -1)};
+        const double change[2] = {changeTo(ahead), changeTo(behind)};
+        forward =
+            std::min(bend[0], bend[1]) < std::min(change[0], change[1]) ? bend[0] < bend[1] : change[0] < change[1];
+    }
     const double other = forward ? ahead : behind;
     const double slope = 2.0 / (lens.size.at(axis) * std::abs(lens.scale.at(axis)));
     if (other <= 0.0 || std::abs(other - depth) > kSteepest * depth * slope) {

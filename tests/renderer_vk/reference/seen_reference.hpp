@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "reference/simulation_terms.hpp"
 
@@ -69,26 +70,41 @@ class Seer {
     Vec eye_{}, right_{}, up_{}, back_{};
 };
 
-/// The direction in which the surface goes on from a texel, along one axis of the image.
+/// The direction in which the surface goes on from a texel, along one axis of the image: where 1 / depth, which is
+/// linear on a plane, bends least.
 inline std::optional<Vec> goesOn(const Seer& seer, long x, long y, long dx, long dy) {
     const Vec here = *seer.surface(x, y);
-    std::optional<Vec> best;
-    double least = 1e300;
+    const auto nearness = [&](long steps) {
+        const auto there = seer.surface(x + steps * dx, y + steps * dy);
+        return there ? std::optional(1.0 / seer.depthOf(*there)) : std::nullopt;
+    };
+    struct Side {
+        long sign;
+        double change, bend;
+    };
+    std::vector<Side> sides;
     for (const long sign : {-1L, 1L}) {
-        const auto there = seer.surface(x + sign * dx, y + sign * dy);
-        if (!there) {
-            continue;
-        }
-        const double change = std::abs(seer.depthOf(*there) - seer.depthOf(here));
-        if (change < least) {
-            least = change;
-            best = static_cast<double>(sign) * (*there - here);
+        if (const auto first = nearness(sign)) {
+            const auto second = nearness(2 * sign);
+            sides.push_back({sign, std::abs(*first - *nearness(0)),
+                             second ? std::abs(2.0 * *first - *second - *nearness(0)) : 1e9});
         }
     }
+    if (sides.empty()) {
+        return std::nullopt;
+    }
+    const auto least = [&](double Side::*what) {
+        return *std::min_element(sides.begin(), sides.end(),
+                                 [&](const Side& a, const Side& b) { return a.*what < b.*what; });
+    };
+    const bool even = least(&Side::bend).bend < least(&Side::change).change;
+    const long sign = even ? least(&Side::bend).sign : least(&Side::change).sign;
+    const Vec there = *seer.surface(x + sign * dx, y + sign * dy);
     const auto fx = static_cast<double>(x);
     const auto fy = static_cast<double>(y);
     const double apart = norm(seer.way(fx + static_cast<double>(dx), fy + static_cast<double>(dy)) - seer.way(fx, fy));
-    return best && least <= 32.0 * seer.depthOf(here) * apart ? best : std::nullopt;
+    const double steep = std::abs(seer.depthOf(there) - seer.depthOf(here)) / (seer.depthOf(here) * apart);
+    return steep <= 32.0 ? std::optional(static_cast<double>(sign) * (there - here)) : std::nullopt;
 }
 
 /// The plane of the texel that x lies in.
@@ -102,7 +118,7 @@ struct SeenPlane {
     [[nodiscard]] bool hides(const Vec& x) const { return distance(x) < -reach; }
 };
 
-inline std::optional<SeenPlane> planeSeenAt(const DepthField& field, const Vec& x) {
+inline std::optional<SeenPlane> planeSeenAt(const DepthField& field, double radius, const Vec& x) {
     const Seer seer(field);
     const auto place = seer.place(x);
     if (!place) {
@@ -132,32 +148,89 @@ inline std::optional<SeenPlane> planeSeenAt(const DepthField& field, const Vec& 
                         seer.way(static_cast<double>(column + dx) + 0.5, static_cast<double>(row + dy) + 0.5));
     };
     return SeenPlane{normal, dot(normal, *here), std::max(1.0, 1.0 / (4.0 * facing)), std::max(facing, 0.25),
-                     std::max({double{field.thickness}, side(1, 0), side(0, 1)})};
+                     std::max({radius, side(1, 0), side(0, 1)})};
 }
 
-inline std::optional<Contact> touchingSeen(const DepthField& field, const Vec& x) {
-    const auto plane = planeSeenAt(field, x);
+inline bool hiddenIn(const DepthField& field, double radius, const Vec& x) {
+    const auto plane = planeSeenAt(field, radius, x);
+    return plane && plane->hides(x);
+}
+
+inline std::optional<Contact> touchingSeen(const SimulationSettings& s, const Vec& x) {
+    const auto plane = planeSeenAt(*s.seen, double{s.radius}, x);
     return plane && !plane->hides(x) ? std::optional(Contact{plane->normal, plane->distance(x)}) : std::nullopt;
 }
 
 inline Vec rescued(const SimulationSettings& s, const Vec& x) {
-    const auto plane = s.seen ? planeSeenAt(*s.seen, x) : std::nullopt;
+    const auto plane = s.seen ? planeSeenAt(*s.seen, double{s.radius}, x) : std::nullopt;
     if (!plane || plane->hides(x)) {
         return x;
     }
     const double way = std::max(-plane->distance(x), 0.0) / plane->stretch;
-    return x + std::min(way, double{s.radius} / 4.0) * plane->normal;
+    const Vec to = x + std::min(way, double{s.radius} / 4.0) * plane->normal;
+    return hiddenIn(*s.seen, double{s.radius}, to) ? x : to;
 }
 
-inline Vec keptInFront(const SimulationSettings& s, const Vec& x, const Vec& start) {
-    const auto plane = s.seen ? planeSeenAt(*s.seen, x) : std::nullopt;
+/// Before the plane of its own texel, or behind it.
+inline Vec onItsSide(const SimulationSettings& s, const Vec& x, const Vec& start) {
+    const auto r = double{s.radius};
+    const auto plane = planeSeenAt(*s.seen, r, x);
     if (!plane) {
         return x;
     }
     const double there = plane->distance(x);
-    const double level = std::min(double{s.radius} * plane->level, plane->distance(start));
-    const double goal = plane->hides(start) ? std::min(there, -plane->reach) : std::max(there, level);
+    const double before = plane->distance(start);
+    const double goal = plane->hides(start) ? std::min(there, std::max(before, -plane->reach - r / 2.0))
+                                            : std::max(there, std::min(r * plane->level, before));
     return x + (goal - there) / plane->stretch * plane->normal;
+}
+
+/// x over the plane through the eye and a column's border, or a row's, to the side of a texel's middle.
+inline Vec withinTexel(const Seer& seer, const Vec& x, double texel, bool row) {
+    const double at = seer.place(x).value()[row ? 1 : 0];
+    const double border = at < texel ? texel + 0.01 : texel + 0.99;
+    const Vec normal =
+        row ? cross(seer.way(0.0, border), seer.way(1.0, border)) : cross(seer.way(border, 0.0), seer.way(border, 1.0));
+    return x - dot(normal, x - seer.eye()) / dot(normal, normal) * normal;
+}
+
+inline Vec keptInFront(const SimulationSettings& s, const Vec& x, const Vec& start) {
+    if (!s.seen) {
+        return x;
+    }
+    const Seer seer(*s.seen);
+    const auto r = double{s.radius};
+    const auto shut = [&](const Vec& at) {
+        const auto plane = planeSeenAt(*s.seen, r, at);
+        return plane && plane->hides(at) &&
+               -plane->distance(at) < std::max(double{s.seen->thickness}, 2.0 * plane->reach);
+    };
+    const Vec kept = onItsSide(s, x, start);
+    const auto from = seer.place(start);
+    if (!from || hiddenIn(*s.seen, r, start) || !shut(kept)) {
+        return kept;
+    }
+    // Along as little of the image's axes as will do.
+    const std::array<double, 2> texel{std::floor((*from)[0]), std::floor((*from)[1])};
+    const auto place = *seer.place(kept);
+    std::optional<Vec> best;
+    for (const std::size_t axis : {0U, 1U}) {
+        if (std::floor(place.at(axis)) == texel.at(axis)) {
+            continue;
+        }
+        const Vec back = withinTexel(seer, kept, texel.at(axis), axis == 1);
+        if (!hiddenIn(*s.seen, r, back) && (!best || norm(back - kept) < norm(*best - kept))) {
+            best = back;
+        }
+    }
+    Vec to = best.value_or(kept);
+    for (const std::size_t axis : {0U, 1U}) {
+        if (!best && std::floor(place.at(axis)) != texel.at(axis)) {
+            to = withinTexel(seer, to, texel.at(axis), axis == 1);
+        }
+    }
+    to = onItsSide(s, to, start);
+    return shut(to) ? start : to;
 }
 
 }  // namespace sluice::vk::test::reference

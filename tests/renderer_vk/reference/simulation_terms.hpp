@@ -155,7 +155,7 @@ inline Contact touching(const Solid& solid, const Vec& x) {
 }
 
 // seen_reference.hpp, which needs what stands above.
-[[nodiscard]] std::optional<Contact> touchingSeen(const DepthField& field, const Vec& x);
+[[nodiscard]] std::optional<Contact> touchingSeen(const SimulationSettings& s, const Vec& x);
 [[nodiscard]] Vec keptInFront(const SimulationSettings& s, const Vec& x, const Vec& start);
 
 using Bodies = std::vector<ReferenceBody>;
@@ -180,7 +180,7 @@ inline std::vector<Contact> contacts(const SimulationSettings& s, const Bodies& 
     for (const ReferenceBody& body : bodies) {
         all.push_back(touching(body.solid, x));
     }
-    if (const auto seen = s.seen && adhering ? touchingSeen(*s.seen, x) : std::nullopt; seen) {
+    if (const auto seen = s.seen && adhering ? touchingSeen(s, x) : std::nullopt; seen) {
         all.push_back(*seen);
     }
     return all;
