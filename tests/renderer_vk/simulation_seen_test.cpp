@@ -208,7 +208,7 @@ TEST_F(SimulationSeen, ASurfaceThatComesOverTheFluidGivesItNoSpeedAndTheWatchSee
         lowest = std::min(lowest, double{state.position[i]});
     }
     RecordProperty("fastest", std::to_string(fastest));
-    EXPECT_LT(fastest, 5.0) << "m/s; the surface comes at one";
+    EXPECT_LT(fastest, 2.0) << "m/s; the surface comes at one";
     EXPECT_GT(lowest, 0.14 - 0.01 * double{kRadius});
     // A surface that jumps over more than that leaves who was in front behind it.
     std::fill(field.depth.begin(), field.depth.end(), 0.5F);
@@ -246,7 +246,7 @@ TEST_F(SimulationSeen, WaterOnAFloorThatIsSeenIsWaterOnAFloor) {
     RecordProperty("lowest", std::to_string(lowest));
     RecordProperty("mean_x", std::to_string(mean(on_seen, 0)) + " " + std::to_string(mean(on_solid, 0)));
     RecordProperty("mean_y", std::to_string(mean(on_seen, 1)) + " " + std::to_string(mean(on_solid, 1)));
-    EXPECT_GT(lowest, 0.1 + 0.5 * double{kRadius}) << "a radius along the view";
+    EXPECT_GT(lowest, 0.1 + 0.9 * double{kRadius}) << "a radius along the view";
     EXPECT_NEAR(mean(on_seen, 0), mean(on_solid, 0), 0.015);
     EXPECT_NEAR(mean(on_seen, 1), mean(on_solid, 1), 0.012);
 }
@@ -265,7 +265,7 @@ TEST_F(SimulationSeen, WaterRunsAroundACrateAndHardlyIntoItAndBehindItItIsFree) 
         }
     }
     RecordProperty("inside", std::to_string(inside) + " of 12 times " + std::to_string(solver->count()));
-    EXPECT_LT(inside, 12U * solver->count() / 25U);
+    EXPECT_LT(inside, 12U * solver->count() / 100U);
 }
 
 TEST_F(SimulationSeen, AReducedImageKeepsWhatIsNearestAndAViewThatIsNoWholeNumberOfTexels) {
