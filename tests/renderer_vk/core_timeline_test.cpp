@@ -159,6 +159,24 @@ TEST_F(Timeline, NoWaitForWorkBehindAPromiseEndsBeforeTheCallThatKeepsItHasRetur
     EXPECT_EQ(timeline->wait(1, kLong), SLUICE_OK);
 }
 
+TEST_F(Timeline, AfterASignalThatFailedAWaitHearsWhyFromTheDriver) {
+    const auto timeline = make(SLUICE_TIMELINE_BRIDGED);
+    ASSERT_TRUE(timeline);
+    ASSERT_TRUE(submitEmpty(*timeline, 1));
+    const auto functions = device->fn;
+    device->fn.vkSignalSemaphore = [](VkDevice, const VkSemaphoreSignalInfo*) -> VkResult {
+        return VK_ERROR_DEVICE_LOST;
+    };
+    device->fn.vkWaitSemaphores = [](VkDevice, const VkSemaphoreWaitInfo*, std::uint64_t) -> VkResult {
+        return VK_ERROR_DEVICE_LOST;
+    };
+    EXPECT_FALSE(timeline->signal(1));
+    EXPECT_EQ(timeline->wait(1, 0), SLUICE_ERROR_DEVICE_LOST) << "and not a timeout, which would blame the host";
+    device->fn = functions;
+    ASSERT_TRUE(timeline->signal(1));
+    EXPECT_EQ(timeline->wait(1, kLong), SLUICE_OK);
+}
+
 TEST_F(Timeline, WaitGivesUpAtItsDeadlineAndNothingIsLost) {
     const auto timeline = make(SLUICE_TIMELINE_BRIDGED);
     ASSERT_TRUE(timeline);

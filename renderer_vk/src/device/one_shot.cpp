@@ -80,13 +80,16 @@ Status runOnce(const Device& device, const std::function<void(VkCommandBuffer)>&
     const auto deadline = deadlineIn(kDeadlineNs);
     const bool kept = !behind.of || behind.of->waitUntilKept(behind.value, deadline);
     result = kept ? device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, leftUntil(deadline)) : VK_TIMEOUT;
-    if (result == VK_TIMEOUT) {
+    const bool late = result == VK_TIMEOUT;
+    if (late) {
         // Freeing what the queue still uses would be worse than waiting on; the queue's lock would stop its other user.
-        (void)device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, UINT64_MAX);
-        return Error{SLUICE_ERROR_INTERNAL, "one-shot commands", "not finished after 60 s", ""};
+        result = device.fn.vkWaitForFences(device.handle, 1, &mine.fence, VK_TRUE, UINT64_MAX);
     }
     if (result != VK_SUCCESS) {
         return vulkanError(result, "vkWaitForFences");
+    }
+    if (late) {
+        return Error{SLUICE_ERROR_INTERNAL, "one-shot commands", "not finished after 60 s", ""};
     }
     return {};
 }

@@ -30,6 +30,12 @@ void HostPromises::kept(std::uint64_t value) {
     release();
 }
 
+void HostPromises::broken() {
+    const std::lock_guard guard(lock_);
+    broken_ = true;
+    changed_.notify_all();
+}
+
 void HostPromises::release() {
     while (!behind_.empty() && behind_.front().first <= kept_) {
         free_ = std::max(free_, behind_.front().second);
@@ -40,12 +46,12 @@ void HostPromises::release() {
 
 bool HostPromises::waitUntilKept(std::uint64_t value, Clock::time_point deadline) const {
     std::unique_lock guard(lock_);
-    return changed_.wait_until(guard, deadline, [&] { return kept_ >= value; });
+    return changed_.wait_until(guard, deadline, [&] { return broken_ || kept_ >= value; });
 }
 
 bool HostPromises::waitUntilFree(std::uint64_t signal, Clock::time_point deadline) const {
     std::unique_lock guard(lock_);
-    return changed_.wait_until(guard, deadline, [&] { return free_ >= signal; });
+    return changed_.wait_until(guard, deadline, [&] { return broken_ || free_ >= signal; });
 }
 
 }  // namespace sluice::vk

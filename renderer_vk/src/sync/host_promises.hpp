@@ -28,10 +28,13 @@ class HostPromises {
     void submitted(std::uint64_t value, std::uint64_t signal);
     /// The call that signals `value` has returned.
     void kept(std::uint64_t value);
+    /// A call that should have signalled has failed: nobody waits here from now on, what they wait for says why.
+    void broken();
 
-    /// Waits until `value` has been kept; false: not by then.
+    /// Waits until `value` has been kept, or a promise is broken; false: neither by then.
     [[nodiscard]] bool waitUntilKept(std::uint64_t value, std::chrono::steady_clock::time_point deadline) const;
-    /// Waits until what signals `signal` has been submitted and every promise before it has been kept.
+    /// Waits until what signals `signal` has been submitted and every promise before it has been kept, or one is
+    /// broken.
     [[nodiscard]] bool waitUntilFree(std::uint64_t signal, std::chrono::steady_clock::time_point deadline) const;
 
   private:
@@ -44,6 +47,7 @@ class HostPromises {
     std::uint64_t promised_ = 0;
     std::uint64_t kept_ = 0;
     std::uint64_t free_ = 0;  ///< the last signal that stands behind no promise
+    bool broken_ = false;
 };
 
 /// One of them.

@@ -138,6 +138,7 @@ Status RendererTimeline::signal(std::uint64_t value) {
     info.semaphore = host_to_renderer_;
     info.value = value;
     if (const VkResult result = device_.fn.vkSignalSemaphore(device_.handle, &info); result != VK_SUCCESS) {
+        promises_->broken();
         return vulkanError(result, fmt::format("vkSignalSemaphore({})", value));
     }
     promises_->kept(value);
@@ -199,6 +200,7 @@ void RendererTimeline::force(std::uint64_t from, std::uint64_t through) {
         info.semaphore = host_to_renderer_;
         info.value = value;
         if (device_.fn.vkSignalSemaphore(device_.handle, &info) != VK_SUCCESS) {
+            promises_->broken();
             return;
         }
         promises_->kept(value);
@@ -245,6 +247,7 @@ Drained RendererTimeline::drain(std::uint64_t grace_ns) {
     }
     Result<std::uint64_t> host = value(SLUICE_HOST_TO_RENDERER);
     if (!host) {
+        promises_->broken();
         return Drained::Lost;
     }
     if (host.value() < last_wait_) {
