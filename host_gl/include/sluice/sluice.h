@@ -174,7 +174,7 @@ typedef struct SluiceWater {
     /* The fluid collides with what the engine's depth shows, a frame late: pixels each way that become one, 1..8, of
      * which 4 is a good start; 0: it does not. Needs a view that turns and moves and does not scale. */
     uint32_t depth_scale;
-    float depth_thickness;         /* metres behind what is seen that are solid; 0: a radius */
+    float depth_thickness;         /* metres that what is seen is deep for who comes round its edge; 0: a radius */
     const SluiceFluidKind* fluids; /* several, such as oil and water, of which blocks and emitters name one each; none:
                                       one of density 1, with the viscosity, tension and adhesion above */
     uint32_t fluid_count;          /* at most SLUICE_MAX_FLUIDS */

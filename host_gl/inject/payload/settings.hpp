@@ -35,7 +35,8 @@ struct WaterPlan {
     std::uint32_t from_frame = 0;     ///< before it there is no fluid, and the eye of that frame is the first
     std::uint32_t max_particles = 0;  ///< at which emitters stop; 0: the library's choice
     std::uint32_t depth_scale = 4;    ///< pixels each way of the program's depth that are one as a solid; 0: it is none
-    float depth_thickness = 0;        ///< metres that what is seen is deep to who comes round its edge; 0: no end
+    float depth_thickness =
+        0;  ///< metres that what is seen is deep to who comes round its edge; 0: the diagonal of the box
 };
 
 struct Settings {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <mutex>
 #include <utility>
@@ -18,8 +19,15 @@ namespace sluice::inject {
 
 namespace {
 
-/// Metres: deeper than any box of water is.
-constexpr float kShut = 1e5F;
+/// Metres: what hides a part of the box is as deep as the box, but not as deep as the world: a weapon before the eye
+/// must not hold up water that is far behind it.
+float depthOfBox(const WaterPlan& plan) {
+    float squares = 0.0F;
+    for (std::size_t i = 0; i < 3; ++i) {
+        squares += (plan.high.at(i) - plan.low.at(i)) * (plan.high.at(i) - plan.low.at(i));
+    }
+    return std::sqrt(squares);
+}
 
 /// libsluice.so's functions. Never closed: threads of the renderer's may outlive the last context.
 struct Api {
@@ -253,7 +261,7 @@ class LibraryWater final : public Water {
         water.max_particles = plan.max_particles;
         water.depth_scale = plan.depth_scale;
         // Shut unless told otherwise: water that falls behind the edge of a basin is lost to the eye and to the basin.
-        water.depth_thickness = plan.depth_thickness > 0 ? plan.depth_thickness : kShut;
+        water.depth_thickness = plan.depth_thickness > 0 ? plan.depth_thickness : depthOfBox(plan);
         const SluiceResult result = api_.setWater(fluid_, &water);
         return result == SLUICE_OK ? Status{} : failure(result, fluid_);
     }

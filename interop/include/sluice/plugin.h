@@ -556,7 +556,7 @@ typedef struct SluiceSimulation {
      * before. */
     uint32_t depth_scale; /* pixels each way that become one, the nearest of them: 1..8; 0: the depth is no solid */
     uint32_t depth_lag; /* 1..frames_in_flight; 0: frames_in_flight, with which the simulation runs beside the frames */
-    float depth_thickness;   /* metres behind what is seen that are solid; 0: a radius */
+    float depth_thickness;   /* metres that what is seen is deep for who comes round its edge; 0: a radius */
     uint32_t depth_reserved; /* zero */
 
     /* ABI 1.2 ends here. */

@@ -31,7 +31,7 @@ struct DepthField {
     std::uint32_t width = 0, height = 0;
     std::array<float, 2> view_size{};  ///< of the camera's view in texels, as the last ones may reach out of it
     DepthView camera;
-    float thickness = 0.0F;  ///< m, behind what is seen; not less than a texel is wide there
+    float thickness = 0.0F;  ///< m, that what is seen is deep for who comes round its edge
     std::vector<float>
         depth;  ///< m along -z, bottom row first; not finite, below half the near plane or above 1e29: nothing is there
 };
