@@ -9,66 +9,6 @@
 namespace sluice::vk {
 namespace {
 
-/// What depth may change by from texel to texel, of what it does on a plane seen at 45 degrees.
-constexpr double kSteepest = 32.0;
-/// Below this part of a ray the distance to a plane is counted along the ray.
-constexpr double kGrazing = 0.25;
-constexpr double kLeastFacing = 1.0 / 64.0;
-
-using Texel = std::array<std::int64_t, 2>;
-
-double at(const DepthField& field, const Texel& texel) {
-    if (texel[0] < 0 || texel[1] < 0 || texel[0] >= field.width || texel[1] >= field.height) {
-        return 0.0;
-    }
-    const auto depth =
-        double{field.depth[static_cast<std::size_t>(texel[1]) * field.width + static_cast<std::size_t>(texel[0])]};
-    return std::isfinite(depth) && depth >= 0.5 * double{field.camera.near_plane} && depth <= 1e29 ? depth : 0.0;
-}
-
-struct Lens {
-    std::array<double, 2> scale{}, offset{}, size{};
-
-    [[nodiscard]] Vector ray(const Texel& texel) const {
-        Vector way{0.0, 0.0, -1.0};
-        for (std::size_t i = 0; i < 2; ++i) {
-            way.at(i) =
-                ((static_cast<double>(texel.at(i)) + 0.5) * 2.0 / size.at(i) - 1.0 + offset.at(i)) / scale.at(i);
-        }
-        return way;
-    }
-};
-
-Vector tangent(const DepthField& field, const Lens& lens, const Texel& texel, std::size_t axis, double depth) {
-    Texel after = texel;
-    Texel before = texel;
-    ++after.at(axis);
-    --before.at(axis);
-    const double ahead = at(field, after);
-    const double behind = at(field, before);
-    bool forward = behind <= 0.0;
-    if (ahead > 0.0 && behind > 0.0) {
-        // Where 1 / depth, which is linear on a plane, bends less; of two sides that both break off, the nearer depth.
-        const auto changeTo = [&](double there) { return std::abs(1.0 / there - 1.0 / depth); };
-        const auto bendOf = [&](double there, Texel beyond, std::int64_t by) {
-            beyond.at(axis) += by;
-            const double second = at(field, beyond);
-            return second > 0.0 ? std::abs(2.0 / there - 1.0 / second - 1.0 / depth) : 1e9;
-        };
-        const double bend[2] = {bendOf(ahead, after, 1), bendOf(behind, before, -1)};
-        const double change[2] = {changeTo(ahead), changeTo(behind)};
-        forward =
-            std::min(bend[0], bend[1]) < std::min(change[0], change[1]) ? bend[0] < bend[1] : change[0] < change[1];
-    }
-    const double other = forward ? ahead : behind;
-    const double slope = 2.0 / (lens.size.at(axis) * std::abs(lens.scale.at(axis)));
-    if (other <= 0.0 || std::abs(other - depth) > kSteepest * depth * slope) {
-        return {};
-    }
-    const Vector way = minus(times(other, lens.ray(forward ? after : before)), times(depth, lens.ray(texel)));
-    return forward ? way : times(-1.0, way);
-}
-
 Error wrong(const std::string& expected, const std::string& found) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, "simulation: depth field",
             fmt::format("expected {}, found {}", expected, found), ""};
@@ -172,64 +112,6 @@ DepthField depthField(const DepthView& camera, std::uint32_t width, std::uint32_
         }
     }
     return field;
-}
-
-std::optional<SolidContact> contactWith(const DepthField& field, const Vector& x) {
-    const DepthHeader header = depthHeader(field);
-    Vector eye{};
-    Vector axes[3];
-    for (std::size_t row = 0; row < 3; ++row) {
-        const auto& r = header.rows.at(row);
-        axes[row] = {double{r[0]}, double{r[1]}, double{r[2]}};
-        eye.at(row) = dot(axes[row], x) + double{r[3]};
-    }
-    const double depth = -eye[2];
-    if (field.depth.empty() || !(depth >= double{field.camera.near_plane})) {
-        return std::nullopt;
-    }
-    const Lens lens{{double{header.lens[0]}, double{header.lens[1]}},
-                    {double{header.lens[2]}, double{header.lens[3]}},
-                    {double{header.limits[2]}, double{header.limits[3]}}};
-    Texel texel{};
-    for (std::size_t i = 0; i < 2; ++i) {
-        const double pixel = ((lens.scale.at(i) * eye.at(i) / depth - lens.offset.at(i)) * 0.5 + 0.5) * lens.size.at(i);
-        if (!(pixel >= 0.0 && pixel < lens.size.at(i))) {
-            return std::nullopt;
-        }
-        texel.at(i) = static_cast<std::int64_t>(pixel);
-    }
-    const double surface = at(field, texel);
-    if (surface <= 0.0) {
-        return std::nullopt;
-    }
-    const Vector place = times(surface, lens.ray(texel));
-    const Vector to_eye = times(-1.0, unit(place));
-    const Vector across = tangent(field, lens, texel, 0, surface);
-    const Vector up = tangent(field, lens, texel, 1, surface);
-    const bool has_across = dot(across, across) > 0.0;
-    const bool has_up = dot(up, up) > 0.0;
-    Vector normal = to_eye;
-    if (has_across && has_up) {
-        normal = unit(cross(across, up));
-        normal = times(dot(normal, to_eye) < 0.0 ? -1.0 : 1.0, normal);
-    } else if (has_across || has_up) {
-        const Vector along = unit(has_across ? across : up);
-        normal = unit(minus(to_eye, times(dot(to_eye, along), along)));
-    }
-    const double facing = std::max(-dot(normal, eye) / depth, kLeastFacing);
-    const double distance = dot(normal, minus(eye, place)) * std::max(1.0, kGrazing / facing);
-    auto reach = double{field.thickness};
-    for (std::size_t i = 0; i < 2; ++i) {
-        reach = std::max(reach, surface * 2.0 / (lens.size.at(i) * std::abs(lens.scale.at(i))));
-    }
-    if (distance < -reach) {
-        return std::nullopt;
-    }
-    Vector world{};
-    for (std::size_t row = 0; row < 3; ++row) {
-        world = plus(world, times(normal.at(row), axes[row]));
-    }
-    return SolidContact{world, distance};
 }
 
 }  // namespace sluice::vk

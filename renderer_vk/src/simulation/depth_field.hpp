@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "simulation/solid.hpp"
@@ -56,9 +55,5 @@ static_assert(sizeof(DepthHeader) == 96, "std430");
 /// stays; a plane comes nearer by half a texel's part of it at most. Shaders/capture_depth.comp does the same.
 [[nodiscard]] DepthField depthField(const DepthView& camera, std::uint32_t width, std::uint32_t height,
                                     std::uint32_t scale, float thickness, const std::vector<float>& depths);
-
-/// The surface that x is in front of or in; none outside of the view, where the image has nothing, and for who is
-/// hidden.
-[[nodiscard]] std::optional<SolidContact> contactWith(const DepthField& field, const Vector& x);
 
 }  // namespace sluice::vk
