@@ -379,7 +379,10 @@ TEST(FrameTracker, AFramebufferThatIsDeletedIsBoundNoMore) {
     tracker.framebufferDeleted(4);
     EXPECT_EQ(tracker.framebuffer(), 0U);
     EXPECT_EQ(tracker.target(), 0U);
+    EXPECT_TRUE(tracker.camera());
+    EXPECT_FALSE(tracker.sceneSeen()) << "that camera is of the frame before";
     (void)fixed.draw(100);
+    EXPECT_TRUE(tracker.sceneSeen());
     tracker.endFrame();
     EXPECT_FALSE(tracker.lastFrame().lenses.empty());
     (void)tracker.bindFramebuffer(5);
@@ -517,6 +520,59 @@ TEST(FrameTracker, APictureInACornerComesAfterTheFluidAndIsTheSceneOnlyWhereTher
         tracker.endFrame();
     }
     EXPECT_NEAR(tracker.camera()->lens.near_plane, 0.1, 1e-3);
+}
+
+TEST(FrameTracker, AFaceWithTheLensOfTheLevelIsNoneOfIt) {
+    FrameTracker tracker;
+    Fixed fixed(tracker);
+    double share = 1.0;
+    tracker.viewportBy([&] { return share; });
+    std::vector<bool> moments;
+    for (int frame = 0; frame < 3; ++frame) {
+        share = 1.0;
+        fixed.project(kLens);
+        EXPECT_FALSE(fixed.draw(100));
+        share = 0.01;
+        moments.push_back(fixed.draw(1191));
+        tracker.endFrame();
+    }
+    EXPECT_EQ(moments, (std::vector<bool>{false, false, true}));
+    EXPECT_EQ(tracker.lastFrame().flat_draws, 1U);
+    ASSERT_TRUE(tracker.camera());
+    EXPECT_EQ(tracker.camera()->vertices, 100U);
+}
+
+// An intro that fills the window, then a game that leaves most of it to its panels.
+TEST(FrameTracker, AfterManyFramesWithoutAnySceneAPictureInACornerIsOne) {
+    for (const std::uint32_t intro_in : {0U, 7U}) {
+        FrameTracker tracker;
+        Fixed fixed(tracker);
+        double share = 1.0;
+        tracker.viewportBy([&] { return share; });
+        const auto frame = [&](std::uint32_t into, double of_window, const Matrix& lens) {
+            share = of_window;
+            (void)tracker.bindFramebuffer(into);
+            fixed.project(lens);
+            (void)fixed.draw(500);
+            (void)tracker.bindFramebuffer(0);
+            tracker.endFrame();
+        };
+        const auto near_plane = [&] { return tracker.camera() ? tracker.camera()->lens.near_plane : 0.0; };
+        frame(intro_in, 1.0, kLens);
+        frame(intro_in, 1.0, kLens);
+        EXPECT_NEAR(near_plane(), 0.1, 1e-3);
+        const Matrix game = frustum(-1, 1, -1, 1, 4, 2048);
+        for (int i = 0; i < 100; ++i) {
+            frame(0, 0.1, game);
+            frame(0, 1.0, ortho());  // which says nothing
+        }
+        EXPECT_NEAR(near_plane(), 0.1, 1e-3) << "of framebuffer " << intro_in << ", as long as it may come back";
+        for (int i = 0; i < 21; ++i) {
+            frame(0, 0.1, game);
+        }
+        EXPECT_NEAR(near_plane(), 4, 1e-2) << "after framebuffer " << intro_in;
+        EXPECT_EQ(tracker.target(), 0U);
+    }
 }
 
 // Irrlicht: the eye looks along +z, and view and world are made for that.

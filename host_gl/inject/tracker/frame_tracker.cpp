@@ -14,6 +14,7 @@ constexpr std::size_t kMostLenses = 16;
 constexpr std::uint32_t kMostPushes = 512;  // of a frame, that are asked for their matrix
 constexpr std::size_t kMostLevels = 64;     // OpenGL has 32 at least, and seldom more
 constexpr std::size_t kMostReasons = 16;
+constexpr std::uint32_t kOldScene = 120;  // frames with a picture in a corner and no scene, after which it is one
 constexpr double kCorner = 0.15;  // of the window: a face or a map beside the scene; a quarter may be one player's
 
 }  // namespace
@@ -281,8 +282,12 @@ bool FrameTracker::draw(std::uint32_t vertices) {
     const bool perspective = reading != nullptr && reading->shape == Shape::Perspective;
     if (framebuffer_ != target_) {
         ++now_.foreign_draws;
-        if (perspective && refused_.count(framebuffer_) == 0 && !inACorner()) {
-            elsewhere_[framebuffer_] += count;
+        if (perspective && refused_.count(framebuffer_) == 0) {
+            if (inACorner()) {
+                corner_seen_ = true;
+            } else {
+                elsewhere_[framebuffer_] += count;
+            }
         }
         return false;
     }
@@ -292,11 +297,12 @@ bool FrameTracker::draw(std::uint32_t vertices) {
     }
     const bool small = inACorner();
     if (small && (scene_seen_ || !elsewhere_.empty())) {
+        corner_seen_ = true;
         ++now_.flat_draws;
         return boundary();
     }
     Group& group = groupOf(*reading);
-    group.small = small;
+    group.small = small && (group.draws == 0 || group.small);  // a face may have the level's own lens
     const std::uint64_t version = program != nullptr ? program->version : fixed_version_;
     if (group.draws == 0) {
         if (program != nullptr) {
@@ -357,7 +363,18 @@ void FrameTracker::refuse(std::uint32_t framebuffer) {
 /// The default framebuffer if any scene is drawn there.
 void FrameTracker::chooseTarget() {
     const Group* const most = mainGroup();
-    scene_seen_ = scene_seen_ || !elsewhere_.empty() || (most != nullptr && !most->small);
+    const bool whole = !elsewhere_.empty() || (most != nullptr && !most->small);
+    scene_seen_ = scene_seen_ || whole;
+    frames_of_corner_ = whole ? 0 : frames_of_corner_ + (corner_seen_ ? 1U : 0U);
+    corner_seen_ = false;
+    if (frames_of_corner_ >= kOldScene) {  // what filled the window was an intro, and this is what it was for
+        scene_seen_ = false;
+        frames_of_corner_ = 0;
+        if (target_ != 0) {
+            target_ = 0;
+            learned_.reset();
+        }
+    }
     const bool here = most != nullptr && (!most->small || elsewhere_.empty());
     const bool in_default = target_ == 0 ? here : elsewhere_.count(0) != 0;
     std::uint32_t next = target_;

@@ -118,6 +118,10 @@ class FrameTracker {
 
     /// The camera of what has been drawn in this frame so far, or of the last frame that had one.
     [[nodiscard]] std::optional<FoundCamera> camera() const;
+    /// That camera is of this frame.
+    [[nodiscard]] bool sceneSeen() const { return !groups_.empty(); }
+    /// The last draw where the scene is drawn was one of it.
+    [[nodiscard]] bool inScene() const { return scene_open_; }
     void endFrame();
     [[nodiscard]] const FrameSummary& lastFrame() const { return last_; }
 
@@ -177,7 +181,9 @@ class FrameTracker {
     std::uint32_t program_ = 0, framebuffer_ = 0, target_ = 0;
     bool program_deleted_ = false;  ///< program_, which is in use still
     bool only_window_ = false;
-    bool scene_seen_ = false;  ///< one that was no picture in a corner
+    bool scene_seen_ = false;             ///< one that was no picture in a corner
+    bool corner_seen_ = false;            ///< in this frame: such a picture that is taken for an overlay
+    std::uint32_t frames_of_corner_ = 0;  ///< with such, since there was a scene
     std::function<double()> viewport_share_;
     DepthRules depth_;
     std::map<std::uint32_t, std::uint64_t>
