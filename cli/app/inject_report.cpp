@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -77,6 +78,15 @@ std::string sayFrame(const Json& context) {
     return text;
 }
 
+/// An axis by its name, any other by its numbers.
+std::string direction(const Json& vector) {
+    const auto [x, y, z] = vector.get<std::array<double, 3>>();
+    if (x == 0.0 && y == 0.0 && z > 0.0) {
+        return "+z";
+    }
+    return x == 0.0 && z == 0.0 && y > 0.0 ? "+y" : fmt::format("({:.4g}, {:.4g}, {:.4g})", x, y, z);
+}
+
 std::string sayFluid(const Json& context) {
     const Json& fluid = context.at("fluid");
     const auto frames = fluid.at("frames").get<double>();
@@ -88,11 +98,11 @@ std::string sayFluid(const Json& context) {
         const Json& s = fluid.at("seconds");
         text += fmt::format(
             "  fluid      {} frames, {} without; {} particles, {} steps, {} renderer(s), on {}; {:.4g} units "
-            "per metre\n",
+            "per metre, up is {}\n",
             fluid.at("frames").get<std::uint64_t>(), fluid.at("frames_without").get<std::uint64_t>(),
             fluid.at("particles").get<std::uint64_t>(), fluid.at("steps").get<std::uint64_t>(),
             fluid.at("renderers").get<std::uint64_t>(), fluid.at("device").get<std::string>(),
-            fluid.at("units_per_metre").get<double>());
+            fluid.at("units_per_metre").get<double>(), direction(fluid.at("up")));
         const auto each = [&](const char* key) { return millisecondsEach(s.at(key), frames); };
         text += fmt::format("  cost       per frame with fluid: capture {}, hand-off {}, fluid {}, composite {}\n",
                             each("capture"), each("hand_off"), each("fluid"), each("composite"));
