@@ -68,6 +68,7 @@ typedef struct SluiceInjectPayload {
     void (*context_created)(uint32_t api, void* context);               /* after; its address may be known already */
     void (*display_ended)(void* display);                               /* of EGL, with its contexts */
     void (*viewport_changed)(void);                                     /* after */
+    void (*clear_of)(uint32_t framebuffer, uint32_t mask);              /* of a framebuffer, bound or not */
 } SluiceInjectPayload;
 
 /* NULL: nothing is to be done in this process, and a line on stderr has said why. */

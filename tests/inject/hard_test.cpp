@@ -120,6 +120,32 @@ TEST_F(HardInjectTest, AProgramThatUsesNoDepthHasNoneInItsWay) {
     const std::set<int> changed = changedFrames(alone, with);
     EXPECT_EQ(changed.count(3) + changed.count(4) + changed.count(5), 3U) << with.out << with.err;
     EXPECT_THAT(with.out, HasSubstr("compared before and after: no difference"));
+    EXPECT_THAT(with.out, HasSubstr(" units per metre, up is +y\n"));
+}
+
+TEST_F(HardInjectTest, ADepthThatIsUsedInTheMiddleOfAFrameOrClearedByNameIsNotWiped) {
+    const auto cleared = [this](const std::string& words) {
+        const Outcome with = injectedHard("--profile tiny.json --step 0.02 --report --json", words + " size=16x16");
+        EXPECT_EQ(with.code, 0) << with.err;
+        const std::set<std::string> counts = matches(with.out, R"("unused_depths_cleared": (\d+))");
+        return counts.size() == 1 ? std::stoi(*counts.begin()) : -1;
+    };
+    EXPECT_GE(cleared("nodepth frames=6"), 3);
+    EXPECT_EQ(cleared("sky frames=6"), 0);
+    EXPECT_EQ(cleared("named frames=6"), 0);
+}
+
+TEST_F(HardInjectTest, AFramebufferThatIsMadeAnewAndAMenuBeforeItLeaveTheFluidAsItIs) {
+    const auto placements = [this](const std::string& words) {
+        const Outcome with = injectedHard("--profile tiny.json --step 0.02 --report --json", words + " size=16x16");
+        EXPECT_EQ(with.code, 0) << with.err;
+        EXPECT_THAT(with.out, ContainsRegex("\"scene_in_framebuffer\": [1-9]")) << with.err;
+        const std::set<std::string> counts = matches(with.out, R"("placements": (\d+))");
+        return counts.size() == 1 ? std::stoi(*counts.begin()) : -1;
+    };
+    EXPECT_EQ(placements("fbo=0 frames=10 anew=4"), 1);
+    EXPECT_EQ(placements("fbo=0 frames=10 menu=4"), 1);
+    EXPECT_EQ(placements("fbo=3 frames=9"), 2) << "what was in the window was a menu";
 }
 
 TEST_F(HardInjectTest, WhatChangesUnseenIsAskedFor) {

@@ -280,6 +280,10 @@ void clear(std::uint32_t mask) {
     withSession([&](Session& at) { at.beforeClear(mask); });
 }
 
+void clearOf(std::uint32_t framebuffer, std::uint32_t mask) {
+    withSession([&](Session& at) { at.beforeClearOf(framebuffer, mask); });
+}
+
 void blocksChanged() {
     withSession([](Session& at) { at.blocksChanged(); });
 }
@@ -311,7 +315,8 @@ const SluiceInjectPayload kTable{sizeof(SluiceInjectPayload),
                                  framebuffersDeleted,
                                  contextCreated,
                                  displayEnded,
-                                 viewportChanged};
+                                 viewportChanged,
+                                 clearOf};
 
 std::string ownFolder() {
     Dl_info info{};

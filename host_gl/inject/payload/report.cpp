@@ -57,6 +57,7 @@ Json waterJson(const WaterReport& water) {
             {"units_per_metre", water.units_per_metre},
             {"up", water.up},
             {"restarts", water.restarts},
+            {"placements", water.placements},
             {"last_error", water.last_error},
             {"seconds",
              {{"capture", water.capture_s},
@@ -91,6 +92,7 @@ Json sessionJson(Session& session) {
             {"in_own_context", facts.embedded},
             {"audited_frames", session.audits()},
             {"state_leaks", session.leaks()},
+            {"unused_depths_cleared", session.depthsCleared()},
             {"errors_of_the_program", session.errorsOfProgram()},
             {"own_seconds",
              {{"frames", session.spent().frames}, {"sum", session.spent().seconds}, {"most", session.spent().most}}}};

@@ -24,8 +24,10 @@ constexpr std::uint64_t kAuditedFrames = 8;          // with fluid; a full snaps
 constexpr std::uint64_t kMostFailures = 120;         // frames in a row that may fail before a context is left alone
 constexpr std::uint64_t kMostFailuresElsewhere = 3;  // before a framebuffer of the program's own is
 constexpr std::uint64_t kFramesToTell = 2;           // after which a depth that was not used is not going to be
+constexpr std::uint32_t kFramesToMove = 2;           // with the scene in a framebuffer, after which it has moved there
 constexpr std::uint32_t kMostPrograms = 512;         // names that are looked at once, when the payload comes late
 constexpr std::size_t kMostLeaks = 64;
+constexpr std::uint32_t kMostDepthAsks = 64;   // draws of a frame before which a depth that is not used is asked for
 constexpr std::uint32_t kMostBlockReads = 64;  // matrices of a frame that are read out of buffers
 
 thread_local std::uint32_t kept_error = 0;
@@ -174,6 +176,7 @@ void Session::clearUnusedDepth() {
     if (uses_depth_ || frames_ < kFramesToTell) {
         return;
     }
+    ++depths_cleared_;
     GLboolean written = GL_TRUE;
     GLdouble value = 1.0;
     const GLboolean cut = glIsEnabled(GL_SCISSOR_TEST);
@@ -198,6 +201,10 @@ void Session::askDepth() {
     payload_.gl.getIntegerv(GL_DEPTH_FUNC, &function);
     tracker_.depth({clipsZeroToOne(), range[0] > range[1], function == GL_GREATER || function == GL_GEQUAL});
     depth_asked_ = true;
+    askDepthTest();
+}
+
+void Session::askDepthTest() {
     GLint tested = GL_FALSE;
     payload_.gl.getIntegerv(GL_DEPTH_TEST, &tested);
     uses_depth_ = uses_depth_ || tested != GL_FALSE;
@@ -299,6 +306,10 @@ void Session::beforeDraw(std::uint32_t vertices) {
         ++early_;
         composeNow();
     }
+    if (!uses_depth_ && depth_asks_ < kMostDepthAsks && tracker_.inScene()) {
+        ++depth_asks_;  // the first draws of a frame may be a sky, and the last ones an overlay
+        askDepthTest();
+    }
 }
 
 void Session::beforeClear(std::uint32_t mask) {
@@ -306,6 +317,14 @@ void Session::beforeClear(std::uint32_t mask) {
     if (!ended_ && (mask & GL_DEPTH_BUFFER_BIT) != 0 && tracker_.clearsDepth()) {
         ++early_;
         composeNow();
+    }
+}
+
+void Session::beforeClearOf(std::uint32_t framebuffer, std::uint32_t mask) {
+    if (framebuffer == tracker_.framebuffer()) {
+        beforeClear(mask);
+    } else {
+        uses_depth_ = uses_depth_ || (framebuffer == 0 && (mask & GL_DEPTH_BUFFER_BIT) != 0);
     }
 }
 
@@ -369,7 +388,7 @@ void Session::swap(const CurrentContext& current, const char* route) {
     viewport_share_.reset();
     blocks_changed_ = true;
     depth_asked_ = false;
-    block_reads_ = 0;
+    block_reads_ = depth_asks_ = 0;
     if (water_ != nullptr) {
         const Timed timed(in_frame_);
         if (const Status status = beginWater(); !status) {
@@ -473,13 +492,16 @@ Status Session::composeIn(const FoundCamera& camera) {
             return made.error();
         }
         water_ = std::move(made).value();
-        placed_in_ = tracker_.target();
+        placed_in_own_ = tracker_.target() != 0;
         if (Status status = water_->begin(time()); !status) {
             return status;
         }
     }
-    if ((tracker_.target() == 0) != (placed_in_ == 0)) {  // what came before was a menu, or a picture in a corner
-        placed_in_ = tracker_.target();
+    // What came before was a menu, or a picture in a corner. The other way round it is not so: whoever draws its scene
+    // in a framebuffer shows a menu in the window, and goes on thereafter with the water as it was.
+    moved_ = !placed_in_own_ && tracker_.target() != 0 && tracker_.sceneSeen() ? moved_ + 1 : 0;
+    if (moved_ >= kFramesToMove) {
+        placed_in_own_ = true;
         if (Status status = water_->placeAnew(camera, seenDistance(camera)); !status) {
             return status;
         }

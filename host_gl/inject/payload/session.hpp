@@ -49,6 +49,8 @@ class Session {
     /// Before a draw: gives the tracker what it wants, and the fluid its moment.
     void beforeDraw(std::uint32_t vertices);
     void beforeClear(std::uint32_t mask);
+    /// Likewise of one that need not be bound.
+    void beforeClearOf(std::uint32_t framebuffer, std::uint32_t mask);
     void beforeBind(std::uint32_t framebuffer);
     void uniform(std::uint32_t program, std::int32_t location, const Matrix& matrix);
     /// What is in the uniform blocks may be another, of another program or in another buffer.
@@ -78,6 +80,7 @@ class Session {
     [[nodiscard]] std::uint64_t audits() const { return audits_; }
     [[nodiscard]] const std::string& failure() const { return failure_; }
     [[nodiscard]] const Spent& spent() const { return spent_; }
+    [[nodiscard]] std::uint64_t depthsCleared() const { return depths_cleared_; }
     [[nodiscard]] std::uint64_t errorsOfProgram() const { return errors_; }
     [[nodiscard]] bool ended() const { return ended_; }
     [[nodiscard]] WaterReport water();
@@ -98,6 +101,7 @@ class Session {
     void endWater();
     void readBlocks();
     void askDepth();
+    void askDepthTest();
     void clearUnusedDepth();
     double viewportShare();
     [[nodiscard]] bool clipsZeroToOne() const;
@@ -115,7 +119,8 @@ class Session {
     FrameTracker tracker_;
     std::unique_ptr<OwnContext> own_;  ///< outlives the water; only beside a program of OpenGL ES
     std::unique_ptr<Water> water_;
-    std::uint32_t placed_in_ = 0;  ///< the framebuffer whose scene the fluid was placed in
+    bool placed_in_own_ = false;  ///< in a scene in a framebuffer of the program's own
+    std::uint32_t moved_ = 0;     ///< frames in a row with such a scene, and the fluid placed in the window's
     WaterReport last_water_;
     DrawableSize size_;
     std::map<std::pair<std::uint32_t, std::int32_t>, UniformName> names_;
@@ -123,12 +128,12 @@ class Session {
     std::optional<double> viewport_share_;                      ///< of the window
     bool uses_depth_ = false;                                   ///< the program has cleared it, or tested against it
     bool has_blocks_ = false, blocks_changed_ = true, depth_asked_ = false;
-    std::uint32_t block_reads_ = 0;  ///< in this frame
+    std::uint32_t block_reads_ = 0, depth_asks_ = 0;  ///< in this frame
     std::map<std::string, std::uint64_t> routes_;
     std::vector<std::string> leaks_;
     std::string failure_;
     Spent spent_;
-    std::uint64_t frames_ = 0, early_ = 0, audits_ = 0, errors_ = 0, failed_in_a_row_ = 0;
+    std::uint64_t frames_ = 0, early_ = 0, audits_ = 0, errors_ = 0, failed_in_a_row_ = 0, depths_cleared_ = 0;
     std::uint32_t resizes_ = 0;
     bool composed_ = false, ended_ = false;
     std::thread::id thread_ = std::this_thread::get_id();

@@ -142,6 +142,7 @@ class LibraryWater final : public Water {
             (void)api_.setSky(fluid_, &*settings.sky);
         }
         plan_ = settings.water;
+        report_.placements = 1;
         return setWater(plan_);
     }
 
@@ -178,6 +179,10 @@ class LibraryWater final : public Water {
 
     Status placeAnew(const FoundCamera& camera, double distance) override {
         placement_ = Placement(plan_, camera, distance);
+        if (!plan_.in_view) {
+            return {};
+        }
+        ++report_.placements;
         begun_ = false;  // a frame that has begun has other water
         return setWater(plan_);
     }

@@ -21,7 +21,8 @@ struct WaterReport {
     std::string device, last_error;
     double units_per_metre = 0;
     std::array<float, 3> up{};
-    std::uint32_t restarts = 0;  ///< of a simulation that had failed
+    std::uint32_t restarts = 0;    ///< of a simulation that had failed
+    std::uint32_t placements = 0;  ///< in a scene, each with its water from the beginning
     double capture_s = 0, hand_off_s = 0, fluid_s = 0, simulation_s = 0, composite_s = 0, whole_s = 0, begin_s = 0;
 };
 
@@ -33,7 +34,8 @@ class Water {
     [[nodiscard]] virtual Status begin(double time) = 0;
     /// The scene is complete; draws the fluid into the default framebuffer.
     [[nodiscard]] virtual Status compose(const FoundCamera& camera, double time) = 0;
-    /// The scene is another one: the fluid stands before this eye as it stood before the first.
+    /// The scene is another one: the fluid stands before this eye as it stood before the first. One that is placed in
+    /// the world goes on, in the unit of this scene.
     [[nodiscard]] virtual Status placeAnew(const FoundCamera& camera, double distance) = 0;
     [[nodiscard]] virtual WaterReport report() = 0;
 };

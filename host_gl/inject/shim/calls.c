@@ -170,6 +170,10 @@ BEFORE(glClearBufferfv, (uint32_t buffer, int32_t which, const float* value), (b
        clear(depth_bit(buffer)))
 BEFORE(glClearBufferfi, (uint32_t buffer, int32_t which, float depth, int32_t stencil), (buffer, which, depth, stencil),
        clear(depth_bit(buffer)))
+BEFORE(glClearNamedFramebufferfv, (uint32_t framebuffer, uint32_t buffer, int32_t which, const float* value),
+       (framebuffer, buffer, which, value), clear_of(framebuffer, depth_bit(buffer)))
+BEFORE(glClearNamedFramebufferfi, (uint32_t framebuffer, uint32_t buffer, int32_t which, float depth, int32_t stencil),
+       (framebuffer, buffer, which, depth, stencil), clear_of(framebuffer, depth_bit(buffer)))
 
 void glBegin(uint32_t mode) {
     typedef void (*Real)(uint32_t);

@@ -18,7 +18,8 @@
     X(glRotatef) X(glRotated) X(glTranslatef) X(glTranslated) X(glScalef) X(glScaled) X(glPushMatrix) \
     X(glPopMatrix) X(glUseProgram) X(glUseProgramObjectARB) X(glUniformMatrix4fv) X(glUniformMatrix4fvARB) \
     X(glProgramUniformMatrix4fv) X(glBindFramebuffer) X(glBindFramebufferEXT) X(glNewList) X(glEndList) \
-    X(glCallList) X(glCallLists) X(glBegin) X(glEnd) X(glClear) X(glViewport) X(glClearBufferfi) X(glClearBufferfv) X(glGetError) X(glDrawArrays) \
+    X(glCallList) X(glCallLists) X(glBegin) X(glEnd) X(glClear) X(glViewport) X(glClearBufferfi) X(glClearBufferfv) X(glClearNamedFramebufferfi) \
+    X(glClearNamedFramebufferfv) X(glGetError) X(glDrawArrays) \
     X(glDrawArraysEXT) X(glDrawElements) X(glDrawRangeElements) X(glDrawRangeElementsEXT) \
     X(glDrawElementsBaseVertex) X(glDrawRangeElementsBaseVertex) X(glDrawArraysInstanced) \
     X(glDrawElementsInstanced) X(glDrawElementsInstancedBaseVertex) X(glMultiDrawArrays) \

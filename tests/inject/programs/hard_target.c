@@ -4,12 +4,15 @@
  *
  * Usage: hard_target [WORD...]
  *   frames=N (6)   size=WxH (64x48)   quiet (no hashes)   bare (no bar over the scene)
- *   nodepth  (neither cleared nor tested)   attributes  (the matrix mode comes back by glPopAttrib)   pushes  (one more
- * than pops in each frame) framebuffer  (is deleted while it is bound)   kill=N  (after frame N, the renderer's
- * process, if there is one) thread  (draws in another one, and destroys the context under it)   terminate  (the display
- * in the middle, then again) default  (the swap by dlsym(RTLD_DEFAULT))   epoxy  (binds framebuffers through libepoxy,
- * from frame 3 on) pace=MS  (that long a pause between frames)   signals  (how many threads would take a signal) wait
- * (for all children at the end, of which it has one)   die  (by SIGKILL at the end, after it named the renderer) */
+ *   nodepth  (neither cleared nor tested)   sky  (nodepth, but with a test for the second draw of three)   named
+ * (nodepth, but it is cleared by name)   fbo=N  (from frame N on, the scene is in a framebuffer of its own)   anew=N
+ * (before frame N that one is deleted and made again)   menu=N  (in frames N and N + 1 the scene is in the window)
+ * attributes  (the matrix mode comes back by glPopAttrib)   pushes  (one more than pops in each frame) framebuffer  (is
+ * deleted while it is bound)   kill=N  (after frame N, the renderer's process, if there is one) thread  (draws in
+ * another one, and destroys the context under it)   terminate  (the display in the middle, then again) default  (the
+ * swap by dlsym(RTLD_DEFAULT))   epoxy  (binds framebuffers through libepoxy, from frame 3 on) pace=MS  (that long a
+ * pause between frames)   signals  (how many threads would take a signal) wait (for all children at the end, of which
+ * it has one)   die  (by SIGKILL at the end, after it named the renderer) */
 #define _GNU_SOURCE
 #define GL_GLEXT_PROTOTYPES
 #include <EGL/egl.h>
@@ -30,10 +33,10 @@
 #include <unistd.h>
 
 static struct {
-    int frames, width, height, kill, pace;
-    int quiet, bare, attributes, pushes, no_depth, framebuffer, thread, terminate, by_default, epoxy, wait, die,
-        signals;
-} options = {.frames = 6, .width = 64, .height = 48, .kill = -1};
+    int frames, width, height, kill, pace, fbo, anew, menu;
+    int quiet, bare, attributes, pushes, no_depth, sky, named, framebuffer, thread, terminate, by_default, epoxy, wait,
+        die, signals;
+} options = {.frames = 6, .width = 64, .height = 48, .kill = -1, .fbo = -1, .anew = -1, .menu = -9};
 
 static EGLDisplay display;
 static EGLConfig config;
@@ -101,6 +104,15 @@ static void make_current(void) {
     }
 }
 
+static void quad(void) {
+    glBegin(GL_QUADS);
+    for (int i = 0; i < 4; ++i) {
+        glColor3f(0.8F, 0.2F * (float)i, 0.4F);
+        glVertex3f(i % 3 == 0 ? -3.0F : 3.0F, i < 2 ? -2.0F : 2.0F, -6.0F);
+    }
+    glEnd();
+}
+
 static void scene(int frame) {
     glMatrixMode(GL_PROJECTION);
     glLoadIdentity();
@@ -114,12 +126,53 @@ static void scene(int frame) {
     if (!options.no_depth) {
         glEnable(GL_DEPTH_TEST);
     }
-    glBegin(GL_QUADS);
-    for (int i = 0; i < 4; ++i) {
-        glColor3f(0.8F, 0.2F * (float)i, 0.4F);
-        glVertex3f(i % 3 == 0 ? -3.0F : 3.0F, i < 2 ? -2.0F : 2.0F, -6.0F);
+    quad();
+    if (options.sky) {
+        glEnable(GL_DEPTH_TEST);
+        glDepthFunc(GL_ALWAYS); /* nobody has cleared it */
+        quad();
+        glDisable(GL_DEPTH_TEST);
     }
-    glEnd();
+}
+
+/* A framebuffer of our own, and what is drawn there. */
+static GLuint own, own_picture, own_depth;
+
+static void make_own(void) {
+    if (own != 0) {
+        glDeleteFramebuffers(1, &own);
+        glDeleteTextures(1, &own_picture);
+        glDeleteTextures(1, &own_depth);
+    }
+    const struct {
+        GLuint* name;
+        GLint format;
+        GLenum of, as, at;
+    } textures[] = {{&own_picture, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT0},
+                    {&own_depth, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, GL_DEPTH_ATTACHMENT}};
+    glGenFramebuffers(1, &own);
+    glBindFramebuffer(GL_FRAMEBUFFER, own);
+    for (int i = 0; i < 2; ++i) {
+        glGenTextures(1, textures[i].name);
+        glBindTexture(GL_TEXTURE_2D, *textures[i].name);
+        glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+        glTexImage2D(GL_TEXTURE_2D, 0, textures[i].format, options.width, options.height, 0, textures[i].of,
+                     textures[i].as, NULL);
+        glFramebufferTexture2D(GL_FRAMEBUFFER, textures[i].at, GL_TEXTURE_2D, *textures[i].name, 0);
+    }
+    glBindTexture(GL_TEXTURE_2D, 0);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+        fail("framebuffer");
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+static void show_own(void) {
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, own);
+    glBlitFramebuffer(0, 0, options.width, options.height, 0, 0, options.width, options.height, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
 }
 
 static void bar(void) {
@@ -161,10 +214,23 @@ static void draw(int frame) {
         memcpy(&call, bind, sizeof(call));
         call(GL_FRAMEBUFFER, 0);
     }
+    const int in_own = options.fbo >= 0 && frame >= options.fbo && frame != options.menu && frame != options.menu + 1;
+    if (in_own) {
+        if (own == 0 || frame == options.anew) {
+            make_own();
+        }
+        glBindFramebuffer(GL_FRAMEBUFFER, own);
+    }
     glViewport(0, 0, options.width, options.height);
     glClearColor(0.1F, 0.2F, 0.3F, 1.0F);
     glClear(GL_COLOR_BUFFER_BIT | (options.no_depth ? 0U : GL_DEPTH_BUFFER_BIT));
+    if (options.named) {
+        glClearNamedFramebufferfi(0, GL_DEPTH_STENCIL, 0, 1.0F, 0);
+    }
     scene(frame);
+    if (in_own) {
+        show_own();
+    }
     if (!options.bare) {
         bar();
     }
@@ -344,10 +410,15 @@ static void read_options(int argc, char** argv) {
         (void)sscanf(word, "size=%dx%d", &options.width, &options.height);
         (void)sscanf(word, "kill=%d", &options.kill);
         (void)sscanf(word, "pace=%d", &options.pace);
+        (void)sscanf(word, "fbo=%d", &options.fbo);
+        (void)sscanf(word, "anew=%d", &options.anew);
+        (void)sscanf(word, "menu=%d", &options.menu);
+        options.sky |= strcmp(word, "sky") == 0;
+        options.named |= strcmp(word, "named") == 0;
         options.quiet |= strcmp(word, "quiet") == 0;
         options.bare |= strcmp(word, "bare") == 0;
         options.attributes |= strcmp(word, "attributes") == 0;
-        options.no_depth |= strcmp(word, "nodepth") == 0;
+        options.no_depth |= strcmp(word, "nodepth") == 0 || strcmp(word, "sky") == 0 || strcmp(word, "named") == 0;
         options.pushes |= strcmp(word, "pushes") == 0;
         options.framebuffer |= strcmp(word, "framebuffer") == 0;
         options.thread |= strcmp(word, "thread") == 0;
