@@ -136,16 +136,18 @@ TEST_F(HardInjectTest, ADepthThatIsUsedInTheMiddleOfAFrameOrClearedByNameIsNotWi
 }
 
 TEST_F(HardInjectTest, AFramebufferThatIsMadeAnewAndAMenuBeforeItLeaveTheFluidAsItIs) {
-    const auto placements = [this](const std::string& words) {
-        const Outcome with = injectedHard("--profile tiny.json --step 0.02 --report --json", words + " size=16x16");
+    const auto placements = [this](const std::string& words, const std::string& profile = "tiny.json") {
+        const Outcome with =
+            injectedHard("--profile " + profile + " --step 0.02 --report --json", words + " size=16x16");
         EXPECT_EQ(with.code, 0) << with.err;
         EXPECT_THAT(with.out, ContainsRegex("\"scene_in_framebuffer\": [1-9]")) << with.err;
         const std::set<std::string> counts = matches(with.out, R"("placements": (\d+))");
         return counts.size() == 1 ? std::stoi(*counts.begin()) : -1;
     };
-    EXPECT_EQ(placements("fbo=0 frames=10 anew=4"), 1);
-    EXPECT_EQ(placements("fbo=0 frames=10 menu=4"), 1);
+    EXPECT_EQ(placements("fbo=0 frames=12 anew=4 menu=7"), 1);
     EXPECT_EQ(placements("fbo=3 frames=9"), 2) << "what was in the window was a menu";
+    write("world.json", R"({"water": {"place": "world", "radius": 0.1, "low": [-1, 0, -7], "high": [0, 1, -6]}})");
+    EXPECT_EQ(placements("fbo=3 frames=9", "world.json"), 1) << "whose place is no matter of the eye";
 }
 
 TEST_F(HardInjectTest, WhatChangesUnseenIsAskedFor) {
