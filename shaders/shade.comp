@@ -114,9 +114,27 @@ float outlineCoverage(ivec2 texel) {
 
 vec3 hostLinear(ivec2 texel) { return srgbDecode(texelFetch(host_colour, onScreen(texel), 0).rgb); }
 
+// What is nearest in HOST_DEPTH, as it is there, around the four texels from `low` on: of each with its eight neighbours.
+vec4 nearestAround(ivec2 low) {
+    vec4 nearest = vec4(EMPTY_DEPTH);
+    for (int row = -1; row <= 2; ++row) {
+        const float a = texelFetch(host_depth, onScreen(low + ivec2(-1, row)), 0).r;
+        const float b = texelFetch(host_depth, onScreen(low + ivec2(0, row)), 0).r;
+        const float c = texelFetch(host_depth, onScreen(low + ivec2(1, row)), 0).r;
+        const float d = texelFetch(host_depth, onScreen(low + ivec2(2, row)), 0).r;
+        const float between = min(b, c);
+        const vec2 pair = vec2(min(a, between), min(between, d));
+        nearest.xy = row < 2 ? min(nearest.xy, pair) : nearest.xy;
+        nearest.zw = row > -1 ? min(nearest.zw, pair) : nearest.zw;
+    }
+    return nearest;
+}
+
 // The scene behind the fluid, seen where a ray leaves it. Texels whose scene is in front of the fluid (a pillar's edge)
-// have nothing to do with what is behind it; where they would take part, half the offset is tried, then a quarter, then
-// none, each blended in as far as the one before failed, so that neither ghosts nor steps appear.
+// have nothing to do with what is behind it, nor have those beside them: where an engine smooths its edges, by several
+// samples a pixel for one, their colour is a mixture of both sides and their depth that of one. Where such would take
+// part, half the offset is tried, then a quarter, then none, each blended in as far as the one before failed, so that
+// neither ghosts nor steps appear.
 vec3 background(ivec2 texel, vec2 pixel, float depth) {
     const vec2 centre = vec2(texel) + 0.5;
     vec3 colour = vec3(0.0);
@@ -126,13 +144,13 @@ vec3 background(ivec2 texel, vec2 pixel, float depth) {
         const vec2 at = clamp(mix(centre, pixel, reach), vec2(0.5), frame.size.xy - 0.5) - 0.5;
         const ivec2 low = ivec2(floor(at));
         const vec2 f = at - vec2(low);
+        const vec4 nearest = nearestAround(low);
         vec3 sum = vec3(0.0);
         float found = 0.0;
         for (int corner = 0; corner < 4; ++corner) {
             const ivec2 offset = ivec2(corner & 1, corner >> 1);
             const vec2 w = mix(1.0 - f, f, vec2(offset));
-            const float scene = sceneDepth(texelFetch(host_depth, onScreen(low + offset), 0).r);
-            const float behind = w.x * w.y * smoothstep(0.0, particleRadius(), scene - depth);
+            const float behind = w.x * w.y * smoothstep(0.0, particleRadius(), sceneDepth(nearest[corner]) - depth);
             sum += behind * hostLinear(low + offset);
             found += behind;
         }
