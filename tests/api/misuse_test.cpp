@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 
@@ -83,6 +86,82 @@ TEST_F(Misuse, MatricesInRowOrderAreRefusedByName) {
     EXPECT_EQ(frameWith(eye.projection), SLUICE_OK) << sluice_last_error(fluid_.get());
 }
 
+TEST_F(Misuse, AFailureWithOtherNumbersInEachFrameIsToldOnce) {
+    begin();
+    const Camera eye = camera();
+    for (int k = 0; k < 5; ++k) {
+        Camera rows{};
+        rows.projection = eye.projection;
+        const float turn = 0.3F * static_cast<float>(k);
+        rows.view = {std::cos(turn),  0, std::sin(turn), 0.1F, 0, 1, 0, -0.5F,
+                     -std::sin(turn), 0, std::cos(turn), -4,   0, 0, 0, 1};
+        rows.view[3] -= turn;
+        (void)sluice_begin_frame(fluid_.get(), rows.view.data(), rows.projection.data(), 1.0 + 0.1 * k);
+        EXPECT_EQ(sluice_end_frame(fluid_.get()), SLUICE_ERROR_INVALID_ARGUMENT);
+    }
+    expectTold("camera: elements 3, 7, 11 and 15 of its view are");
+    for (int k = 0; k < 3; ++k) {  // a good frame between them makes no news of it
+        EXPECT_EQ(frame(fluid_.get(), 2.0 + 0.1 * k), SLUICE_OK) << sluice_last_error(fluid_.get());
+        EXPECT_EQ(sluice_end_frame(fluid_.get()), SLUICE_ERROR_INVALID_ARGUMENT);
+    }
+    expectTold("sluice_end_frame: no frame has begun");
+}
+
+TEST_F(Misuse, ANumberThatIsNoneIsNamedWithItsRemedy) {
+    begin();
+    Camera eye = camera();
+    eye.view[3] = std::numeric_limits<float>::quiet_NaN();
+    (void)sluice_begin_frame(fluid_.get(), eye.view.data(), eye.projection.data(), 1.0);
+    EXPECT_EQ(sluice_end_frame(fluid_.get()), SLUICE_ERROR_INVALID_ARGUMENT);
+    expectTold("camera: element 3 of its view is nan, expected a finite number (look for a division by zero");
+    eye = camera();
+    eye.projection[0] = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(frameWith(eye.projection), SLUICE_ERROR_INVALID_ARGUMENT);
+    expectTold("camera: element 0 of its projection is inf, expected a finite number");
+}
+
+/// `scale`: units of the engine's world that a metre has, in its view and in near and far.
+std::vector<std::uint8_t> pictureOfUnits(Sluice* fluid, float scale) {
+    Camera eye = camera();
+    for (std::size_t column = 0; column < 4; ++column) {
+        for (std::size_t row = 0; row < 3; ++row) {
+            eye.view.at(column * 4 + row) *= scale;
+        }
+    }
+    eye.projection = frustum(0.1F * scale, 100.0F * scale);
+    EXPECT_EQ(sluice_begin_frame(fluid, eye.view.data(), eye.projection.data(), 1.0), SLUICE_OK);
+    drawRoom();
+    EXPECT_EQ(sluice_end_frame(fluid), SLUICE_OK) << sluice_last_error(fluid);
+    return pixels(0);
+}
+
+TEST_F(Misuse, AViewThatScalesIsOfAnotherUnitAndOneThatStretchesIsRefusedByName) {
+    begin();
+    const auto metres = pictureOfUnits(fluid_.get(), 1.0F);
+    drawRoom();
+    ASSERT_GT(changed(pixels(0), metres, kWidth / 3, kWidth), 300);
+    for (const float scale : {100.0F, 0.25F}) {
+        begin();
+        const auto scaled = pictureOfUnits(fluid_.get(), scale);
+        int far = 0;
+        for (std::size_t i = 0; i < metres.size(); ++i) {
+            far += std::abs(int{metres[i]} - int{scaled[i]}) > 3 ? 1 : 0;
+        }
+        EXPECT_LE(far, 8) << scale << ", of " << metres.size() << " values";
+    }
+    EXPECT_EQ(log_.lines, std::vector<std::string>{});
+    Camera eye = camera();
+    eye.view[5] = 2.0F;
+    (void)sluice_begin_frame(fluid_.get(), eye.view.data(), eye.projection.data(), 1.0);
+    EXPECT_EQ(sluice_end_frame(fluid_.get()), SLUICE_ERROR_INVALID_ARGUMENT);
+    expectTold("camera: its view scales the axes x, y and z by 1, 2 and 1, expected one scale above 0 for all three (");
+    eye = camera();
+    eye.view[4] = 0.2F;
+    (void)sluice_begin_frame(fluid_.get(), eye.view.data(), eye.projection.data(), 1.0);
+    EXPECT_EQ(sluice_end_frame(fluid_.get()), SLUICE_ERROR_INVALID_ARGUMENT);
+    expectTold("camera: axes x and y of its view have an angle of cosine 0.196116, expected 0 (");
+}
+
 /// Walls by what the engine's depth says of them: near the eye on the left, behind the fluid on the right.
 std::vector<std::uint8_t> pictureThrough(Sluice* fluid, float low, float high) {
     const Camera eye = camera();
@@ -133,7 +212,9 @@ TEST_F(Misuse, ASizeThatIsNotTheWindowsIsTold) {
     ASSERT_EQ(sluice_resize(fluid_.get(), kWidth / 2, kHeight), SLUICE_OK);
     const auto viewport = [](GLsizei width) { return [width] { glViewport(0, 0, width, kHeight); }; };
     EXPECT_EQ(frameWith(camera().projection, viewport(kWidth)), SLUICE_ERROR_INVALID_ARGUMENT);
-    expectTold("it is 96x64, Sluice was told 48x64");
+    EXPECT_NE(std::string(sluice_last_error(fluid_.get())).find("it is 96x64, Sluice was told 48x64"),
+              std::string::npos);
+    EXPECT_EQ(log_.lines, std::vector<std::string>{}) << "the log has heard of that kind of failure";
     EXPECT_EQ(frameWith(camera().projection, viewport(kWidth / 2)), SLUICE_OK) << "a part of the window";
     EXPECT_EQ(log_.lines, std::vector<std::string>{});
 }

@@ -48,8 +48,8 @@
  *
  * UNITS
  *   As in sluice/plugin.h: metres, seconds, right-handed world, matrices in the column order of glLoadMatrixf. An
- *   engine whose unit is not a metre scales: of `view` take the inverse scale into account, and of the fluid's box the
- *   scale.
+ *   engine of U units to the metre gives what is of the fluid in metres, its projection as it is, and its view times a
+ *   scale by U on the right, as by glScalef(U, U, U); or it divides the view's translation, near and far by U.
  *
  * GROWTH
  *   As in sluice/plugin.h: structs by pointer begin with struct_size, which sluice_*_defaults sets and which may be set

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "context/profile.hpp"
 
@@ -17,9 +18,75 @@ namespace {
 constexpr double kFarthest = 1e6;
 /// What may be left in the last row of a view that was multiplied, or taken out of a product, in 32-bit floats.
 constexpr float kFlat = 1e-2F;
+/// Likewise in the lengths and angles of its axes; and a scale nearer to 1 than the second is rounding.
+constexpr double kUneven = 3e-2;
+constexpr double kUnscaled = 1e-3;
 
 Error wrong(std::string detail, const char* remedy) {
     return {SLUICE_ERROR_INVALID_ARGUMENT, "camera", std::move(detail), remedy};
+}
+
+Status checkFinite(const char* name, const Matrix& matrix) {
+    const auto* const found =
+        std::find_if(matrix.begin(), matrix.end(), [](float value) { return !std::isfinite(value); });
+    if (found == matrix.end()) {
+        return {};
+    }
+    return wrong(
+        fmt::format("element {} of its {} is {}, expected a finite number", found - matrix.begin(), name, *found),
+        "look for a division by zero where the matrix is made: an eye at its own target, a look straight along "
+        "the up vector, a window of height 0");
+}
+
+/// How many units of eye space a metre is: 1 where nobody scales.
+Result<double> scaleOf(const Matrix& view) {
+    std::array<double, 3> lengths{};
+    std::array<double, 3> cosines{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t next = (axis + 1) % 3;
+        for (std::size_t row = 0; row < 3; ++row) {
+            lengths[axis] += double{view[axis * 4 + row]} * double{view[axis * 4 + row]};
+            cosines[axis] += double{view[axis * 4 + row]} * double{view[next * 4 + row]};
+        }
+        lengths[axis] = std::sqrt(lengths[axis]);
+    }
+    const auto [least, most] = std::minmax_element(lengths.begin(), lengths.end());
+    if (!(*least > 0.0) || *most > (1.0 + kUneven) * *least) {
+        return wrong(fmt::format("its view scales the axes x, y and z by {:.6g}, {:.6g} and {:.6g}, expected one scale "
+                                 "above 0 for all three",
+                                 lengths[0], lengths[1], lengths[2]),
+                     "give the world's view without the transform of an object: a rotation, a translation and at most "
+                     "one scale, the units of your world that a metre has");
+    }
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double cosine = cosines[axis] / (lengths[axis] * lengths[(axis + 1) % 3]);
+        if (std::abs(cosine) > kUneven) {
+            return wrong(fmt::format("axes {} and {} of its view have an angle of cosine {:.6g}, expected 0",
+                                     "xyz"[axis], "xyz"[(axis + 1) % 3], cosine),
+                         "give the world's view without the transform of an object: a rotation, a translation and at "
+                         "most one scale");
+        }
+    }
+    const double scale = std::cbrt(lengths[0] * lengths[1] * lengths[2]);
+    return std::abs(scale - 1.0) > kUnscaled ? scale : 1.0;
+}
+
+/// Eye space in metres, as the renderer takes it, from one of `scale` units a metre. The picture and its depths stay as
+/// they are: clip space is divided by the scale with its w.
+void takeScaleOut(SluiceCamera& camera, double scale) {
+    if (scale == 1.0) {
+        return;
+    }
+    for (std::size_t column = 0; column < 4; ++column) {
+        for (std::size_t row = 0; row < 3; ++row) {
+            float& value = camera.view[column * 4 + row];
+            value = static_cast<float>(double{value} / scale);
+        }
+    }
+    for (std::size_t row = 0; row < 4; ++row) {
+        float& value = camera.projection[12 + row];
+        value = static_cast<float>(double{value} / scale);
+    }
 }
 
 /// glDepthRange puts [-1, 1] into [range[0], range[1]] where [0, 1] is what everybody behind here takes for granted:
@@ -36,9 +103,10 @@ void applyRange(SluiceCamera& camera, const std::array<float, 2>& range) {
 }  // namespace
 
 Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, const DepthMapping& depth) {
-    const auto finite = [](float value) { return std::isfinite(value); };
-    if (!std::all_of(view.begin(), view.end(), finite) || !std::all_of(projection.begin(), projection.end(), finite)) {
-        return wrong("a number of its matrices is not finite", "");
+    for (const auto& [name, matrix] : {std::pair{"view", &view}, std::pair{"projection", &projection}}) {
+        if (Status status = checkFinite(name, *matrix); !status) {
+            return status.error();
+        }
     }
     // A transposed projection is a possible one, with a near of its own; a transposed view is none.
     const std::array row{view[3], view[7], view[11], view[15] - 1.0F};
@@ -47,9 +115,14 @@ Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, cons
                                  view[3], view[7], view[11], view[15]),
                      "give both matrices in column order, as OpenGL has them in memory: transpose them");
     }
+    const Result<double> scale = scaleOf(view);
+    if (!scale) {
+        return scale.error();
+    }
     SluiceCamera camera{};
     std::copy(view.begin(), view.end(), camera.view);
     std::copy(projection.begin(), projection.end(), camera.projection);
+    takeScaleOut(camera, scale.value());
     if (depth.zero_to_one) {
         // z' = 2 z - w puts [0, w] where OpenGL has [-w, w], so that window depth comes out the same.
         for (std::size_t column = 0; column < 4; ++column) {

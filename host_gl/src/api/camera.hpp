@@ -18,7 +18,8 @@ struct DepthMapping {
 };
 
 /// Pure. The projection comes out as one that has the same depths with the mapping that OpenGL begins with. Fails
-/// unless it is a perspective one that looks down -z with 0 < near < far; far may be infinite.
+/// unless it is a perspective one that looks down -z with 0 < near < far; far may be infinite. A view that scales, all
+/// axes alike, is of a world whose unit is no metre: the scale is taken out of both, the picture stays.
 [[nodiscard]] Result<SluiceCamera> cameraOf(const Matrix& view, const Matrix& projection, const DepthMapping& depth);
 
 /// The two matrices of the fixed function, view first.

@@ -17,6 +17,7 @@
 #include "api/log_sink.hpp"
 #include "api/target.hpp"
 #include "api/timings.hpp"
+#include "api/told.hpp"
 #include "frame/kept_scene.hpp"
 #include "sluice/host_gl/fluid_host.hpp"
 #include "sluice/ledger/live.hpp"
@@ -50,9 +51,8 @@ class Session {
     void setEnabled(bool enabled) { enabled_ = enabled; }
     [[nodiscard]] Result<SluiceStatistics> statistics();
 
-    /// Its code: a failure is kept as the last error, and told to the log unless it was the last to be told and no
-    /// fluid has been drawn since.
-    SluiceResult told(const Status& status);
+    /// Its code: a failure is kept as the last error, and told to the log unless that has heard of it.
+    SluiceResult told(const Status& status, Once once);
     [[nodiscard]] const char* lastError() const { return last_error_.c_str(); }
 
   private:
@@ -141,7 +141,7 @@ class Session {
     double end_frame_seconds_ = 0.0, wait_seconds_ = 0.0;
     Timings timings_;
     std::string last_error_;
-    std::vector<std::string> told_;  ///< to the log since the last good frame
+    Told told_;
 };
 
 }  // namespace sluice::host

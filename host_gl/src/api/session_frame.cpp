@@ -123,9 +123,6 @@ Status Session::endFrame() {
         }
     }
     ++(status ? frames_ : frames_without_);
-    if (status) {
-        told_.clear();
-    }
     return status;
 }
 

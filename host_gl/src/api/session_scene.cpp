@@ -15,12 +15,6 @@
 
 namespace sluice::host {
 
-namespace {
-
-constexpr std::size_t kMostTold = 16;  // messages between two good frames: a text that counts would fill the log
-
-}  // namespace
-
 Status Session::setWater(const SluiceWater* asked) {
     Water water;
     SluiceSimulation simulation{};
@@ -171,7 +165,7 @@ Result<SluiceStatistics> Session::statistics() {
     return out;
 }
 
-SluiceResult Session::told(const Status& status) {
+SluiceResult Session::told(const Status& status, Once once) {
     if (status) {
         return SLUICE_OK;
     }
@@ -181,12 +175,8 @@ SluiceResult Session::told(const Status& status) {
     last_error_ = status.error().message();
     // The FluidHost itself tells of a renderer that it replaces, with what it is about to do.
     const bool known = host_ != nullptr && host_->recovering();
-    const bool news = std::find(told_.begin(), told_.end(), last_error_) == told_.end();
-    if (news && told_.size() < kMostTold) {
-        told_.push_back(last_error_);
-        if (!known) {
-            log_(SLUICE_LOG_ERROR, last_error_);
-        }
+    if (told_.isNews(last_error_, once) && !known) {
+        log_(SLUICE_LOG_ERROR, last_error_);
     }
     return status.error().code;
 }

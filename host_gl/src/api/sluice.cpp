@@ -23,6 +23,7 @@ namespace {
 
 using sluice::Error;
 using sluice::Status;
+using sluice::host::Once;
 
 /// Of sluice_create.
 std::string& createError() {
@@ -32,7 +33,7 @@ std::string& createError() {
 
 /// Runs `body`, which returns a Status; nothing is thrown.
 template <typename Body>
-SluiceResult call(Sluice* fluid, Body body) noexcept {
+SluiceResult call(Sluice* fluid, Body body, Once once = Once::Kind) noexcept {
     if (fluid == nullptr) {
         return SLUICE_ERROR_INVALID_ARGUMENT;
     }
@@ -46,7 +47,7 @@ SluiceResult call(Sluice* fluid, Body body) noexcept {
         } catch (const std::exception& thrown) {
             status = Error{SLUICE_ERROR_INTERNAL, "Sluice", thrown.what(), ""};
         }
-        return session.told(status);
+        return session.told(status, once);
     } catch (...) {
         return SLUICE_ERROR_OUT_OF_MEMORY;  // there was none even for the message
     }
@@ -166,7 +167,8 @@ void sluice_water_defaults(SluiceWater* water, size_t struct_size) {
 }
 
 SluiceResult sluice_set_water(Sluice* fluid, const SluiceWater* water) {
-    return call(fluid, [&](sluice::host::Session& session) { return session.setWater(water); });
+    return call(
+        fluid, [&](sluice::host::Session& session) { return session.setWater(water); }, Once::Text);
 }
 
 void sluice_flow_of(const SluiceWater* water, SluiceFlow* flow, size_t struct_size) {
