@@ -5,6 +5,7 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <optional>
@@ -95,15 +96,16 @@ std::string placeOf(std::string_view thing, const std::vector<std::string>& soli
     return fmt::format("/simulation/{}", what);
 }
 
-/// The solver's error in the scene's words: in the middle of its text solids are told by number, too.
+/// The solver's error in the scene's words: in the middle of its text solids and bodies are told by number, too.
 Error inScene(Error error, const scene::Scene& scene) {
     const std::vector<std::string> solids = placesOfSolids(scene);
     error.thing = placeOf(error.thing, solids);
-    constexpr std::string_view kSolid = "outside solid ";
-    if (const std::size_t at = error.detail.find(kSolid); at != std::string::npos) {
-        const std::string_view named = std::string_view(error.detail).substr(at + kSolid.size() - 6);
-        if (const auto member = memberOf(named); member && member->number < solids.size()) {
-            error.detail = error.detail.substr(0, at) + "outside " + solids[member->number] + std::string(member->rest);
+    constexpr std::string_view kWithin = "lies in ";
+    if (const std::size_t at = error.detail.find(kWithin); at != std::string::npos) {
+        const std::size_t end = at + kWithin.size();
+        if (const auto member = memberOf(std::string_view(error.detail).substr(end))) {
+            const std::string place = placeOf(fmt::format("{} {}", member->word, member->number), solids);
+            error.detail = error.detail.substr(0, end) + place + std::string(member->rest);
         }
     }
     if (error.remedy.empty()) {
@@ -150,6 +152,38 @@ Status checkAmounts(const scene::Scene& scene, const std::vector<simulator::Mesh
     return {};
 }
 
+/// What no frame could be simulated with, however short its steps.
+Status checkSpeeds(const scene::Scene& scene, const simulator::Setup& setup) {
+    const scene::Simulation& s = scene.simulation;
+    const double most = simulator::fastestAllowed(setup, 1.0 / double{s.frames_per_second});
+    const auto tooFast = [&](const char* list, std::size_t number, const char* key, double speed) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("/simulation/{}/{}{}", list, number, key),
+                     fmt::format("expected at most {:.4g} m/s, the fastest that the shortest steps of a frame can "
+                                 "follow, found {:.4g} m/s",
+                                 most, speed),
+                     "make it slower, or /simulation/frames_per_second, radius or cfl larger"};
+    };
+    for (std::size_t i = 0; i < s.fluid.size(); ++i) {
+        const auto& v = s.fluid[i].velocity;
+        if (const double speed = std::hypot(double{v[0]}, double{v[1]}, double{v[2]}); speed > most) {
+            return tooFast("fluid", i, "/velocity", speed);
+        }
+    }
+    for (std::size_t i = 0; i < s.emitters.size(); ++i) {
+        if (double{s.emitters[i].speed} > most) {
+            return tooFast("emitters", i, "/speed", double{s.emitters[i].speed});
+        }
+    }
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+        const auto& v = s.bodies[i].velocity;
+        if (const double speed = simulator::fastestOfBody(setup, i); speed > most) {
+            const bool straight = std::hypot(double{v[0]}, double{v[1]}, double{v[2]}) > most;
+            return tooFast("bodies", i, !s.bodies[i].path.empty() ? "/path" : straight ? "/velocity" : "/spin", speed);
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 Result<simulator::Setup> checkedSetup(const scene::Scene& scene, const std::vector<simulator::Mesh>& meshes) {
@@ -157,6 +191,9 @@ Result<simulator::Setup> checkedSetup(const scene::Scene& scene, const std::vect
     // Before the meshes: their distances are as fine as the radius and as wide as the domain, and take their time.
     if (const Status status = simulator::check(setup); !status) {
         return inScene(status.error(), scene);
+    }
+    if (const Status status = checkSpeeds(scene, setup); !status) {
+        return status.error();
     }
     if (const Status status = checkAmounts(scene, meshes); !status) {
         return status.error();

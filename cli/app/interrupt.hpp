@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Ctrl-C as a question that the frame loop asks between files.
+// Ctrl-C as a question that the frame loop asks between files, and the solver between steps.
 #pragma once
 
 namespace sluice::cli {

@@ -105,13 +105,16 @@ Status goOn(Run& run, std::int64_t number) {
     const auto begin = std::chrono::steady_clock::now();
     const double frame = 1.0 / double{run.settings.frames_per_second};
     const Result<simulator::Advance> done =
-        run.simulator.advance(frame, std::min(1.0, frame / run.settings.steps_per_frame));
+        run.simulator.advance(frame, std::min(1.0, frame / run.settings.steps_per_frame), interrupted);
     run.summary.solver_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (!done) {
         return done.error();
     }
     SimulationSummary& s = run.summary;
     const simulator::Advance& a = done.value();
+    if (a.stopped) {
+        return {};  // who asked for it finds out by itself
+    }
     s.simulated_s += frame;
     s.shortest_step = s.steps == 0 ? a.shortest : std::min(s.shortest_step, a.shortest);
     s.steps += a.steps;
@@ -159,15 +162,22 @@ int stopped(Run& run, const Error& error, int code) {
     return code;
 }
 
+/// What a signal has ended; the files are those of the frames before.
+int interruptedIn(const Run& run, std::int64_t frame) {
+    log(SLUICE_LOG_WARNING, fmt::format("interrupted in frame {} of {} to {}, which is not written; files written: {}",
+                                        frame, run.frames.first, run.frames.last, run.summary.files.size()));
+    return kExitInterrupted;
+}
+
 int runFrames(Run& run) {
     Progress progress(static_cast<std::uint64_t>(run.frames.last), !run.options.quiet);
     for (std::int64_t frame = 1; frame <= run.frames.last; ++frame) {
-        if (interrupted()) {
-            return kExitInterrupted;
-        }
         progress.update(static_cast<std::uint64_t>(frame - 1), fmt::format("frame {}", frame));
         if (const Status status = frame > 1 ? goOn(run, frame) : Status{}; !status) {
             return stopped(run, status.error(), kExitNoFluid);
+        }
+        if (interrupted()) {
+            return interruptedIn(run, frame);
         }
         Result<simulator::Particles> particles = run.simulator.read();
         if (!particles) {

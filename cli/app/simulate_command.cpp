@@ -51,7 +51,8 @@ void addSimulateCommand(CLI::App& app, SimulateOptions& options, int& verbosity,
         "       or --validation had something to say\n"
         "  4    not enough memory, an output that cannot be written, or an internal\n"
         "       fault\n"
-        "  130  interrupted; the file in hand was finished\n");
+        "  130  interrupted (SIGINT or SIGTERM), within a frame, too: the frames\n"
+        "       before stay\n");
     c.callback([&o, &run] { run = [&o] { return simulate(o); }; });
 }
 

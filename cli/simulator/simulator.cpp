@@ -6,6 +6,7 @@
 
 #include "device/device.hpp"
 #include "simulation/solver.hpp"
+#include "simulation/time_step.hpp"
 
 namespace sluice::simulator {
 namespace {
@@ -81,6 +82,17 @@ vk::SimulationSettings settingsOf(const Setup& setup) {
 
 Status check(const Setup& setup) {
     return vk::checkSettings(settingsOf(setup));
+}
+
+double fastestAllowed(const Setup& setup, double seconds) {
+    const vk::SimulationSettings settings = settingsOf(setup);
+    return vk::fastestOf(double{settings.cfl} * double{settings.support()}, seconds);
+}
+
+double fastestOfBody(const Setup& setup, std::size_t body) {
+    const vk::Body made = settingsOf(setup).bodies.at(body);
+    const vk::BodyState state = vk::startOf(made);
+    return vk::fastestPoint({&made, 1}, {&state, 1});
 }
 
 Status addMeshes(Setup& setup, std::span<const Mesh> meshes) {
@@ -187,13 +199,23 @@ Status Simulator::setParticles(const Particles& particles) {
     return state_->solver->setParticles(particles.position, particles.velocity, particles.fluid);
 }
 
-Result<Advance> Simulator::advance(double seconds, double longest) {
+Result<Advance> Simulator::advance(double seconds, double longest, const std::function<bool()>& stop) {
+    bool stopped = false;
+    state_->solver->watchSteps([&](const vk::StepReport& /*step*/, bool /*kept*/) {
+        stopped = stop();
+        return !stopped;
+    });
     const Result<vk::AdvanceReport> report = state_->solver->advance(seconds, longest);
+    state_->solver->watchSteps({});
     if (!report) {
         return report.error();
     }
     const vk::AdvanceReport& r = report.value();
-    Advance out{r.steps, r.split, r.shortest, r.speed, r.most_neighbours, 0.0, 0.0, r.born, r.blocked, r.drained};
+    Advance out{r.steps, r.split,   r.shortest, r.speed, r.most_neighbours, 0.0, 0.0,
+                r.born,  r.blocked, r.drained,  stopped};
+    if (stopped) {
+        return out;
+    }
     const Result<std::vector<float>> densities = state_->solver->densities();
     if (!densities) {
         return densities.error();

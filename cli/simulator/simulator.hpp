@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -125,10 +126,16 @@ struct Advance {
     double mean_compression = 0.0;  ///< mean of max(density - 1, 0) after the last step, in densities of rest
     double greatest_density = 0.0;
     std::uint64_t born = 0, blocked = 0, drained = 0;  ///< particles
+    bool stopped = false;                              ///< before its time; then compression and density are not known
 };
 
 /// What Simulator::create would refuse of it on any device; the error's thing is "simulation: WHAT[ NUMBER][: FIELD]".
 [[nodiscard]] Status check(const Setup& setup);
+
+/// The fastest that anything may be, m/s, for Simulator::advance to get so many seconds further.
+[[nodiscard]] double fastestAllowed(const Setup& setup, double seconds);
+/// The fastest point of a body, m/s: its speed and its spin, or the fastest leg of its path.
+[[nodiscard]] double fastestOfBody(const Setup& setup, std::size_t body);
 
 /// Makes the meshes solids of a setup whose radius and domain are final. Refused, with the mesh named, unless each is a
 /// closed surface.
@@ -166,8 +173,8 @@ class Simulator {
     /// In place of the setup's, which there must have been.
     [[nodiscard]] Status setDepth(const vk::DepthField& seen);
     [[nodiscard]] Status setParticles(const Particles& particles);
-    /// On an error the particles are those of the last good step.
-    [[nodiscard]] Result<Advance> advance(double seconds, double longest);
+    /// On an error the particles are those of the last good step. `stop` is asked after every step, and ends it.
+    [[nodiscard]] Result<Advance> advance(double seconds, double longest, const std::function<bool()>& stop);
     [[nodiscard]] Result<Particles> read() const;
     /// In the order of the setup.
     [[nodiscard]] std::vector<BodyPose> bodies() const;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <ostream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sluice/simulation_limits.hpp"
@@ -19,6 +20,11 @@ std::string tap(const char* centre, const char* more = "") {
     return fmt::format(R"({{"shape": "disc", "centre": {}, "direction": [0, -1, 0], "width": 0.2, "height": 0.2,
                            "speed": 1{}}})",
                        centre, more);
+}
+
+std::string faster(std::string tap) {
+    constexpr std::string_view kSpeed = R"("speed": 1)";
+    return tap.replace(tap.find(kSpeed), kSpeed.size(), R"("speed": 9000)");
 }
 
 std::string body(const char* centre) {
@@ -86,26 +92,26 @@ const std::vector<Refused>& refusals() {
     static const std::vector<Refused> all{
         {"Rate", list("emitters", tap("[0, 1, 0]", R"(, "rate": 1000000)")), "", "/simulation/emitters/0/rate",
          "expected a rate in [0, 525] particles per second, which is 21 at a time, two radii apart, found 1000000"},
-        {"OutsideTheDomain", list("emitters", inside + ", " + tap("[1, 1, 0]")), "", "/simulation/emitters/1/centre",
-         "expected an opening within the domain, [-1, 0, -1] to [1, 2, 1], found [1"},
+        {"OutsideTheDomain", list("emitters", inside + ", " + tap("[1, 1, 0]")), "", "/simulation/emitters/1",
+         "lies outside the domain, [-1, 0, -1] to [1, 2, 1], or within half a radius of its walls (centre [1, 1, 0])"},
         {"InASphere", list("emitters", inside) + R"(, "spheres": [{"centre": [0, 1, 0], "radius": 0.5}])", "",
-         "/simulation/emitters/0/centre", "expected an opening outside /simulation/spheres/0, found ["},
+         "/simulation/emitters/0", "lies in /simulation/spheres/0 or within half a radius of it (centre [0, 1, 0])"},
         {"InAPillar", list("emitters", inside) + R"(, "capsules": [{"from": [5, 0, 0], "to": [5, 1, 0], "radius": 1}])",
          R"("pillars": [{"base": [9, 0, 0], "radius": 0.1, "height": 1}, {"base": [0, 0, 0], "radius": 0.5, "height": 2}])",
-         "/simulation/emitters/0/centre", "outside /engine/pillars/1, found"},
+         "/simulation/emitters/0", "lies in /engine/pillars/1 or within"},
         {"InACrate",
          list("emitters", inside) + R"(, "boxes": [{"centre": [5, 0, 0], "half": [1, 1, 1], "turn_degrees": 0}])",
-         R"("crates": [{"centre": [0, 1, 0], "size": 1, "turn_degrees": 0}])", "/simulation/emitters/0/centre",
-         "outside /engine/crates/0, found"},
+         R"("crates": [{"centre": [0, 1, 0], "size": 1, "turn_degrees": 0}])", "/simulation/emitters/0",
+         "lies in /engine/crates/0 or within"},
         {"InTheLastWallOfABasin", list("emitters", inside),
          R"("crates": [{"centre": [5, 0, 0], "size": 1, "turn_degrees": 0}],
             "basins": [{"centre": [0, 0.5, 0], "half_x": 2, "half_z": 2, "height": 1, "wall": 0.5},
                        {"centre": [0, 0.5, -2], "half_x": 2, "half_z": 1.5, "height": 1, "wall": 1}])",
-         "/simulation/emitters/0/centre", "outside /engine/basins/1, found"},
+         "/simulation/emitters/0", "lies in /engine/basins/1 or within"},
         {"InAPlane", list("emitters", inside) + R"(, "planes": [{"normal": [1, 0, 0], "through": [0.5, 0, 0]}])", "",
-         "/simulation/emitters/0/centre", "outside /simulation/planes/0, found"},
-        {"BelowTheFloor", list("emitters", inside), R"("floor_height": 1.5)", "/simulation/emitters/0/centre",
-         "outside /engine/floor_height, found"},
+         "/simulation/emitters/0", "lies in /simulation/planes/0 or within"},
+        {"BelowTheFloor", list("emitters", inside), R"("floor_height": 1.5)", "/simulation/emitters/0",
+         "lies in /engine/floor_height or within"},
         {"OpeningTooLarge",
          R"("emitters": [{"shape": "box", "centre": [0, 1, 0], "direction": [0, -1, 0], "width": 100, "height": 100, "speed": 1}])",
          "", "/simulation/emitters/0/width", "an opening for at most 16384 particles"},
@@ -119,6 +125,17 @@ const std::vector<Refused>& refusals() {
          "/simulation/domain", "(100,000 radii), found [0, 0, 0] to [11, 1, 1]"},
         {"BodyOutside", list("bodies", body("[0, 1, 0]") + ", " + body("[0, 3, 0]")), "", "/simulation/bodies/1/centre",
          "expected a centre in the domain, [-1, 0, -1] to [1, 2, 1], found [0, 3, 0]"},
+        {"BodyInASolid", list("bodies", body("[0, 1, 0]")) + R"(, "spheres": [{"centre": [0, 0.8, 0], "radius": 0.3}])",
+         "", "/simulation/bodies/0/centre", "[0, 1, 0] lies in /simulation/spheres/0"},
+        {"BodyInABody", list("bodies", body("[0.5, 1, 0]") + ", " + body("[0, 1, 0]") + ", " + body("[0, 1, 0]")), "",
+         "/simulation/bodies/1/centre", "[0, 1, 0] lies in /simulation/bodies/2"},
+        {"BlockTooFast", R"("fluid": [{"low": [0, 0, 0], "high": [1, 1, 1], "velocity": [0, -5000, 0]}])", "",
+         "/simulation/fluid/0/velocity", "the fastest that the shortest steps of a frame can follow, found 5000 m/s"},
+        {"TapTooFast", list("emitters", inside + ", " + faster(tap("[0.5, 1, 0]"))), "", "/simulation/emitters/1/speed",
+         "can follow, found 9000 m/s"},
+        {"BodyTooFast", R"("bodies": [{"shape": "sphere", "centre": [0, 1, 0], "half": [0.1, 0.1, 0.1],
+         "turn_degrees": 0, "density": 1, "velocity": [9000, 0, 0], "spin": [0, 0, 0], "path": []}])",
+         "", "/simulation/bodies/0/velocity", "can follow, found 9000 m/s"},
         {"CrateThatIsNone", "", R"("crates": [{"centre": [0, 1, 0], "size": 1e-45, "turn_degrees": 0}])",
          "/engine/crates/0", "half extents > 0"},
         {"Emitters", list("emitters", inside, 17), "", "/simulation/emitters", "expected at most 16, found 17"},
@@ -142,8 +159,8 @@ TEST(CheckedSetup, MeshesAreSolidsToWhatIsBesideThem) {
     EXPECT_TRUE(setupOf(list("emitters", tap("[0, 1, 0]")), "", {cube()}).ok());
     const auto tapped = setupOf(list("emitters", tap("[0, 0.3, 0]")), "", {cube()});
     ASSERT_FALSE(tapped.ok());
-    EXPECT_EQ(tapped.error().thing, "/simulation/emitters/0/centre");
-    EXPECT_NE(tapped.error().detail.find("an opening outside the meshes"), std::string::npos);
+    EXPECT_EQ(tapped.error().thing, "/simulation/emitters/0");
+    EXPECT_NE(tapped.error().detail.find("lies in the meshes or within half a radius"), std::string::npos);
     const auto pushed = setupOf(list("bodies", body("[0, 1, 0]")), "", {cube()});
     ASSERT_FALSE(pushed.ok());
     EXPECT_EQ(pushed.error().thing, "/simulation/bodies");

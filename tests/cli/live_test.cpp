@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "program.hpp"
+#include "sluice/particles/particles.hpp"
 
 namespace sluice::test {
 namespace {
@@ -260,7 +261,12 @@ TEST_F(Live, TheLedgerFindsAFrameThatDoesNotWaitForItsFluid) {
 }
 
 TEST_F(Live, AFluidThatIsTooFastStandsStillAndALostRendererBeginsAgain) {
-    writeFluid("fast.json", "[0, -10000, 0]");
+    particles::ParticleSet set;  // a block of the scene would be refused
+    set.radius = 0.05F;
+    set.position = {0.0F, 1.0F, 0.0F, 0.2F, 1.0F, 0.0F};
+    set.velocity = {0.0F, -1e5F, 0.0F, 0.0F, 0.0F, 0.0F};
+    ASSERT_TRUE(particles::save(at("start.ply"), set).ok());
+    write("fast.json", R"({"size": [48, 27], "frames": [1, 4], "simulation": {"radius": 0.05, "start": "start.ply"}})");
     const nlohmann::json fast = render("fast.json -o f_##.png", 3);
     EXPECT_EQ(fast["frames"]["with_fluid"], 4);
     EXPECT_EQ(fast["simulation"]["stands_still_from"], 2);

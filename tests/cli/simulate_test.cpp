@@ -226,7 +226,7 @@ TEST_F(Simulate, WhatTheSolverRefusesIsTheSameWordsFromBothCommandsBeforeAnyFile
         EXPECT_EQ(std::count(rendered.err.begin(), rendered.err.end(), '\n'), 1) << rendered.err;
         EXPECT_FALSE(exists("made"));
     };
-    refused("wall.json", "emitters/0/centre: expected an opening within the domain");
+    refused("wall.json", "emitters/0: a point of its opening, [");
     refused("rate.json", "emitters/0/rate: expected a rate in [0, 240]");
     refused("kernel.json", "iterations: expected 2 to 64 with a kernel other than poly6, found 1");
 }
@@ -280,11 +280,29 @@ TEST_F(Simulate, AWrongCommandLineIsOneAndAWrongSceneTwo) {
 }
 
 TEST_F(Simulate, AFluidThatIsTooFastIsReportedAndTheFramesBeforeStay) {
-    writeFluid("s.json", "[0, -10000, 0]");
+    // No block of a scene may be so fast, but the particles of a start are what they are.
+    particles::ParticleSet set;
+    set.radius = 0.05F;
+    set.position = {0.0F, 1.0F, 0.0F, 0.2F, 1.0F, 0.0F};
+    set.velocity = {0.0F, -1e5F, 0.0F, 0.0F, 0.0F, 0.0F};
+    ASSERT_TRUE(particles::save(at("start.ply"), set).ok());
+    write("s.json", R"({"simulation": {"radius": 0.05, "start": "start.ply"}})");
     const Outcome outcome = run("simulate s.json -o f_##.pos --frames 1..3");
     EXPECT_EQ(outcome.code, 3);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("no step was stable"), HasSubstr("1e+04 m/s")));
-    EXPECT_THAT(files(), ElementsAre("f_01.pos", "s.json"));
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("no step was stable"),
+                                   HasSubstr("1e+05 m/s, that of a particle (give a smaller speed")));
+    EXPECT_THAT(files(), ElementsAre("f_01.pos", "s.json", "start.ply"));
+}
+
+TEST_F(Simulate, ASignalEndsItWithinAFrameWhichIsNotWritten) {
+    // At this gravity a frame is thousands of steps.
+    write("s.json", R"({"simulation": {"gravity": [0, -10000, 0], "radius": 0.02, "frames_per_second": 5,
+        "fluid": [{"low": [-0.6, 0, -0.6], "high": [0.6, 1.2, 0.6]}]}})");
+    write("signalled", R"("$@" & while ! test -e f_01.pos; do sleep 0.05; done; sleep 0.3; kill -TERM $!; wait $!)");
+    const Outcome outcome = run("simulate s.json -o f_##.pos --frames 1..2", "sh ./signalled");
+    EXPECT_EQ(outcome.code, 130) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("interrupted in frame 2 of 1 to 2, which is not written; files written: 1"));
+    EXPECT_THAT(files(), ElementsAre("f_01.pos", "s.json", "signalled"));
 }
 
 }  // namespace

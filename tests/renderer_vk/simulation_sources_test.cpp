@@ -245,8 +245,9 @@ TEST(SimulationSourcesCheck, NamesWhatIsWrong) {
     EXPECT_THAT(message([](SourceSettings& s) { s.emitters[0].rate = 1e4F; }),
                 HasSubstr("a rate in [0, 525] particles per second, which is 21 at a time"));
     EXPECT_THAT(message([](SourceSettings& s) { s.emitters[0].stop = -1; }), HasSubstr("a start >= 0 and a stop"));
-    EXPECT_THAT(message([](SourceSettings& s) { s.emitters[0].centre[0] = 0.95F; }), HasSubstr("within the domain"));
-    EXPECT_THAT(message([](SourceSettings& s) { s.emitters[0].centre[0] = 0.3F; }), HasSubstr("outside solid 0"));
+    EXPECT_THAT(message([](SourceSettings& s) { s.emitters[0].centre[0] = 0.95F; }),
+                HasSubstr("lies outside the domain"));
+    EXPECT_THAT(message([](SourceSettings& s) { s.emitters[0].centre[0] = 0.3F; }), HasSubstr("lies in solid 0"));
     EXPECT_THAT(message([](SourceSettings& s) { s.drains[0].half[1] = 0; }), HasSubstr("drain 0: expected a finite"));
     EXPECT_THAT(message([](SourceSettings& s) { s.fields[0].strength = NAN; }), HasSubstr("a strength in"));
     EXPECT_THAT(message([](SourceSettings& s) { s.fields.resize(17); }), HasSubstr("fields: expected at most 16"));

@@ -69,25 +69,34 @@ Status checkFlow(const Emitter& e, const std::string& thing, std::size_t sites, 
     return {};
 }
 
-Status checkSites(std::span<const Triple> sites, const std::string& thing, float radius, const Triple& low,
-                  const Triple& high, std::span<const Solid> solids, const DistanceGrid* meshes) {
+/// Whoever gave the centre has never seen the point: both are told, and which is which.
+Error misplaced(const std::string& thing, const Triple& point, const std::string& where, const Triple& centre,
+                const char* remedy) {
+    return {SLUICE_ERROR_INVALID_ARGUMENT, thing,
+            fmt::format("a point of its opening, {}, lies {} (centre {})", shown(point), where, shown(centre)), remedy};
+}
+
+Status checkSites(const Emitter& e, std::span<const Triple> sites, const std::string& thing, float radius,
+                  const Triple& low, const Triple& high, std::span<const Solid> solids, const DistanceGrid* meshes) {
+    constexpr const char* kMoveOut = "move its centre out, along its direction, or make the opening smaller";
     for (const Triple& x : sites) {
         for (std::size_t axis = 0; axis < 3; ++axis) {
             if (x[axis] < low[axis] + 0.5F * radius || x[axis] > high[axis] - 0.5F * radius) {
-                return wrong(thing + ": centre",
-                             fmt::format("an opening within the domain, {} to {}", shown(low), shown(high)), shown(x),
-                             "move its centre into the box, half a radius and its width from the walls");
+                return misplaced(thing, x,
+                                 fmt::format("outside the domain, {} to {}, or within half a radius of its walls",
+                                             shown(low), shown(high)),
+                                 e.centre,
+                                 "move its centre into the box, half a radius and half its width from the walls");
             }
         }
         for (std::size_t k = 0; k < solids.size(); ++k) {
             if (distanceTo(solids[k], x) < 0.5 * double{radius}) {
-                return wrong(thing + ": centre", fmt::format("an opening outside solid {}", k), shown(x),
-                             "move it out, along its direction");
+                return misplaced(thing, x, fmt::format("in solid {} or within half a radius of it", k), e.centre,
+                                 kMoveOut);
             }
         }
         if (meshes != nullptr && contactWith(*meshes, wide(x)).distance < 0.5 * double{radius}) {
-            return wrong(thing + ": centre", "an opening outside the meshes", shown(x),
-                         "move it out, along its direction");
+            return misplaced(thing, x, "in the meshes or within half a radius of them", e.centre, kMoveOut);
         }
     }
     return {};
@@ -137,7 +146,7 @@ Status checkSources(const SourceSettings& s, float radius, const Triple& low, co
         if (Status status = checkFlow(s.emitters[i], thing, sites.size(), radius); !status) {
             return status;
         }
-        if (Status status = checkSites(sites, thing, radius, low, high, solids, meshes); !status) {
+        if (Status status = checkSites(s.emitters[i], sites, thing, radius, low, high, solids, meshes); !status) {
             return status;
         }
     }

@@ -86,6 +86,30 @@ Status checkSolid(const Solid& solid, std::size_t index) {
     return {};
 }
 
+/// A free body whose centre is in something else is pushed out of it nowhere in particular, or never.
+Status checkBodiesApart(const SimulationSettings& s) {
+    const auto inside = [&s](std::size_t i, const std::string& what) {
+        return Error{SLUICE_ERROR_INVALID_ARGUMENT, fmt::format("simulation: body {}: centre", i),
+                     fmt::format("{} lies in {}", shown(s.bodies[i].centre), what), "move one out of the other"};
+    };
+    for (std::size_t i = 0; i < s.bodies.size(); ++i) {
+        if (!s.bodies[i].free()) {
+            continue;
+        }
+        for (std::size_t k = 0; k < s.solids.size(); ++k) {
+            if (distanceTo(s.solids[k], s.bodies[i].centre) < 0.0) {
+                return inside(i, fmt::format("solid {}", k));
+            }
+        }
+        for (std::size_t k = 0; k < s.bodies.size(); ++k) {
+            if (k != i && distanceTo(solidOf(s.bodies[k], startOf(s.bodies[k])), s.bodies[i].centre) < 0.0) {
+                return inside(i, fmt::format("body {}", k));
+            }
+        }
+    }
+    return {};
+}
+
 }  // namespace
 
 bool SimulationSettings::tense() const {
@@ -168,6 +192,9 @@ Status checkSettings(const SimulationSettings& s) {
         return status;
     }
     if (Status status = checkBodies(s.bodies, s.low, s.high); !status) {
+        return status;
+    }
+    if (Status status = checkBodiesApart(s); !status) {
         return status;
     }
     if (s.meshed() && !s.bodies.empty()) {

@@ -20,8 +20,6 @@ constexpr double kFarthestMove = 1.0;
 /// How far a step may be above what its depth allows: between 0.17, below which no column boiled, and 0.24, above which
 /// all did, lies a factor of 1.19 in the step.
 constexpr double kPatience = 1.06;
-/// Of one call of advance: what needs more is not going to end.
-constexpr std::uint32_t kMostSteps = 4096;
 
 double norm(const Triple& v) {
     return std::hypot(double{v[0]}, double{v[1]}, double{v[2]});
@@ -55,6 +53,21 @@ double fastestJet(const SimulationSettings& s) {
         most = std::max(most, double{emitter.speed});
     }
     return most;
+}
+
+/// Who is so fast, for a message.
+std::string whoIs(double speed, const SimulationSettings& s, std::span<const BodyState> bodies) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (fastestPoint({&s.bodies[i], 1}, bodies.subspan(i, 1)) >= speed) {
+            return fmt::format("body {}", i);
+        }
+    }
+    for (std::size_t i = 0; i < s.sources.emitters.size(); ++i) {
+        if (double{s.sources.emitters[i].speed} >= speed) {
+            return fmt::format("emitter {}", i);
+        }
+    }
+    return "a particle";
 }
 
 }  // namespace
@@ -208,9 +221,10 @@ Result<AdvanceReport> Solver::advance(double seconds, double longest) {
         return Error{
             SLUICE_ERROR_INVALID_ARGUMENT, "simulation",
             fmt::format("no step was stable: after {} steps and {} halvings, {} s of {} are left at a speed of "
-                        "{:.3g} m/s",
-                        total.steps, total.split, left, seconds, s.speed),
-            "particles that lie in one another or in a solid, a speed or a depth beyond reason, do this"};
+                        "{:.3g} m/s, that of {}",
+                        total.steps, total.split, left, seconds, s.speed, whoIs(s.speed, s.settings, s.bodies)),
+            "give a smaller speed or acceleration, or shorter times (more frames_per_second); particles that lie in "
+            "one another or in a solid, or a depth beyond reason, do this, too"};
     }
     return total;
 }
