@@ -76,7 +76,7 @@ Solver::Solver(std::unique_ptr<State> state) : state_(std::move(state)) {}
 Solver::~Solver() = default;
 
 Result<std::unique_ptr<Solver>> Solver::create(const Device& device, const SimulationSettings& settings) {
-    if (const Status status = checkSettings(settings); !status) {
+    if (Status status = checkSettings(settings); !status) {
         return status.error();
     }
     auto state = std::make_unique<State>(device, withoutNeedlessFluids(settings));
@@ -259,7 +259,7 @@ Status Solver::setFlow(const FlowSettings& flow) {
     State& s = *state_;
     SimulationSettings changed = s.settings;
     apply(flow, changed);
-    if (const Status status = checkSettings(changed); !status) {
+    if (Status status = checkSettings(changed); !status) {
         return status;
     }
     if (!flow.fluids.empty()) {
