@@ -37,13 +37,22 @@ inline Matrix translation(float x, float y, float z) {
     return m;
 }
 
-inline Matrix turn(double degrees) {  // about +y
+/// From axis `from` to axis `to`.
+inline Matrix rotation(std::size_t from, std::size_t to, double degrees) {
     const double a = degrees * 3.14159265358979 / 180.0;
     Matrix m = kIdentity;
-    m[0] = m[10] = static_cast<float>(std::cos(a));
-    m[8] = static_cast<float>(std::sin(a));
-    m[2] = -m[8];
+    m.at(5 * from) = m.at(5 * to) = static_cast<float>(std::cos(a));
+    m.at(4 * from + to) = static_cast<float>(std::sin(a));
+    m.at(4 * to + from) = -m.at(4 * from + to);
     return m;
+}
+
+inline Matrix turn(double degrees) {  // about +y
+    return rotation(2, 0, degrees);
+}
+
+inline Matrix pitch(double degrees) {  // about +x
+    return rotation(1, 2, degrees);
 }
 
 inline Matrix scaling(float s) {

@@ -79,15 +79,6 @@ TEST(Placement, AProgramWhoseUpIsZGetsItsWaterUprightToo) {
     EXPECT_NEAR(view[5], 1, 1e-5F);
 }
 
-Matrix pitch(double degrees) {  // about +x
-    const double a = degrees * 3.14159265358979 / 180.0;
-    Matrix m = kIdentity;
-    m[5] = m[10] = static_cast<float>(std::cos(a));
-    m[6] = static_cast<float>(std::sin(a));
-    m[9] = -m[6];
-    return m;
-}
-
 TEST(Placement, WhichWayIsUpIsSeenFromHowTheEyeStands) {
     const Triple y{0, 1, 0};
     const Triple z{0, 0, 1};

@@ -234,15 +234,10 @@ TEST_F(RecoveryTest, ASimulationThatANewRendererRefusesIsDroppedAndTheRestGoesOn
     complaints_.clear();
 }
 
-TEST_F(RecoveryTest, ANewRendererBeginsWithWhatTheSimulationWasResetTo) {
-    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
-    const std::vector<float> position{0.25F, 0.1F, 0.0F, 0.5F, 0.1F, 0.0F};
-    auto start = sized<SluiceStart>();
-    start.particle_count = 2;
-    start.position = position.data();
-    EXPECT_THAT(host_->resetSimulation(start).error().message(), HasSubstr("there is no simulation"));
+/// In a box of 2 m; of several positions, the first.
+SluiceSimulation oneParticleAt(const std::vector<float>& position) {
     auto simulation = sized<SluiceSimulation>();
-    simulation.frames_in_flight = simulation.iterations = 1;
+    simulation.frames_in_flight = simulation.iterations = simulation.particle_count = 1;
     simulation.radius = 0.05F;
     simulation.relaxation = 0.1F;
     simulation.cfl = 0.4F;
@@ -250,7 +245,17 @@ TEST_F(RecoveryTest, ANewRendererBeginsWithWhatTheSimulationWasResetTo) {
     std::fill_n(&simulation.low[0], 3, -1.0F);
     std::fill_n(&simulation.high[0], 3, 1.0F);
     simulation.position = position.data();
-    simulation.particle_count = 1;
+    return simulation;
+}
+
+TEST_F(RecoveryTest, ANewRendererBeginsWithWhatTheSimulationWasResetTo) {
+    ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
+    const std::vector<float> position{0.25F, 0.1F, 0.0F, 0.5F, 0.1F, 0.0F};
+    auto start = sized<SluiceStart>();
+    start.particle_count = 2;
+    start.position = position.data();
+    EXPECT_THAT(host_->resetSimulation(start).error().message(), HasSubstr("there is no simulation"));
+    SluiceSimulation simulation = oneParticleAt(position);
     simulation.max_particles = 2;
     ASSERT_TRUE(host_->setSimulation(&simulation));
     ASSERT_TRUE(host_->simulate(1, 0.01));
@@ -283,15 +288,7 @@ TEST_F(RecoveryTest, ANewRendererBeginsWithWhatTheSimulationWasResetTo) {
 TEST_F(RecoveryTest, AChangedFlowGoesToTheNewRendererWithItsSimulation) {
     ASSERT_NO_FATAL_FAILURE(begin(recovering(SLUICE_TIMELINE_BRIDGED)));
     const std::vector<float> position{0.0F, 0.1F, 0.0F};
-    auto simulation = sized<SluiceSimulation>();
-    simulation.frames_in_flight = simulation.iterations = simulation.particle_count = 1;
-    simulation.radius = 0.05F;
-    simulation.relaxation = 0.1F;
-    simulation.cfl = 0.4F;
-    simulation.longest_step = 0.01;
-    std::fill_n(&simulation.low[0], 3, -1.0F);
-    std::fill_n(&simulation.high[0], 3, 1.0F);
-    simulation.position = position.data();
+    SluiceSimulation simulation = oneParticleAt(position);
     ASSERT_TRUE(host_->setSimulation(&simulation));
     auto flow = sized<SluiceFlow>();
     flow.iterations = 1;

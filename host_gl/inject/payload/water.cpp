@@ -22,11 +22,7 @@ namespace {
 /// Metres: what hides a part of the box is as deep as the box, but not as deep as the world: a weapon before the eye
 /// must not hold up water that is far behind it.
 float depthOfBox(const WaterPlan& plan) {
-    float squares = 0.0F;
-    for (std::size_t i = 0; i < 3; ++i) {
-        squares += (plan.high.at(i) - plan.low.at(i)) * (plan.high.at(i) - plan.low.at(i));
-    }
-    return std::sqrt(squares);
+    return std::hypot(plan.high[0] - plan.low[0], plan.high[1] - plan.low[1], plan.high[2] - plan.low[2]);
 }
 
 /// libsluice.so's functions. Never closed: threads of the renderer's may outlive the last context.
@@ -265,7 +261,8 @@ class LibraryWater final : public Water {
         water.emitter_count = static_cast<std::uint32_t>(plan.emitters.size());
         water.max_particles = plan.max_particles;
         water.depth_scale = plan.depth_scale;
-        // Shut unless told otherwise: water that falls behind the edge of a basin is lost to the eye and to the basin.
+        // So deep unless told otherwise: water that falls behind the edge of a basin is lost to the eye and to the
+        // basin.
         water.depth_thickness = plan.depth_thickness > 0 ? plan.depth_thickness : depthOfBox(plan);
         const SluiceResult result = api_.setWater(fluid_, &water);
         return result == SLUICE_OK ? Status{} : failure(result, fluid_);
