@@ -198,7 +198,7 @@ Result<simulator::Setup> checkedSetup(const scene::Scene& scene, const std::vect
     if (const Status status = checkAmounts(scene, meshes); !status) {
         return status.error();
     }
-    if (scene.simulation.collide == scene::kCollideDepth) {
+    if (scene.simulation.collide == scene::kCollideDepth || meshes.empty()) {
         return setup;
     }
     if (const Status status = simulator::addMeshes(setup, meshes); !status) {
